@@ -88,11 +88,36 @@ struct Cycle {
   [[nodiscard]] double frequency() const { return 1.0 / period; }  ///< Hz
 };
 
-/// Where it can rest. With dry friction, or in the gap, that is a set.
+enum class RestKind : std::uint8_t {
+  no_limit,     ///< the controller acts
+  dead_band,    ///< the error is within the controller's dead band
+  torque_limit  ///< the torque is at a limit
+};
+
+/// Equilibria of one kind.
+struct RestPiece {
+  RestKind kind = RestKind::no_limit;  ///< what acts there
+  double side = 0.0;                   ///< of the limit: 1 forward, −1 backward; else 0
+  Bounds load{};                       ///< rad, from the reference
+  Bounds motor{};                      ///< rad, from the reference, at the load's shaft
+};
+
+/// How long starts of a search took to rest: until the load stayed within `band` of its final
+/// position, by its law where it approaches that ever more slowly.
+struct TimeToRest {
+  double band = 0.0;     ///< rad: the specification, else half an encoder step, else 1 % of the gap
+  double longest = 0.0;  ///< s
+  double median = 0.0;   ///< s
+};
+
+/// Where it can rest. With dry friction, or in the gap, that is a set. Its ends are those where no
+/// torque limit acts, if there are such.
 struct Rest {
   Bounds load{};   ///< rad, from the reference
   Bounds motor{};  ///< rad, from the reference, at the load's shaft
   Bounds error{};  ///< rad, reference − load
+  /// All equilibria that small disturbances do not leave, where they are computed.
+  std::vector<RestPiece> pieces{};
   /// Computed: the ends of all equilibria, from the equations. Searched: those that starts led to.
   Certainty certainty = Certainty::searched;
   std::size_t starts = 0;  ///< that led here; 0 if none was needed
@@ -102,6 +127,8 @@ struct Rest {
   /// Of the starts: integral action against dry friction without stiction moves them ever less and
   /// ever later, or hardly ever (docs/explanation/drives.md).
   std::size_t creeping_starts = 0;
+  /// Of the starts that come to rest; empty where one of them does not show it.
+  std::optional<TimeToRest> time{};
 };
 
 /// Bounded motion that was not seen to repeat. An empty member was not measured.
@@ -126,14 +153,15 @@ inline constexpr double steps_of_quantization = 4.0;
 
 /// Where a start of a search led.
 struct StartOutcome {
-  double load_position = 0.0;          ///< rad
-  double load_speed = 0.0;             ///< rad/s
-  double motor_position = 0.0;         ///< rad, at the load's shaft
-  double motor_speed = 0.0;            ///< rad/s, at the load's shaft
-  std::string end{};                   ///< "rest", "cycle", "irregular", "diverges", "undecided"
-  std::optional<std::size_t> which{};  ///< index into the cycles, or into the irregular motions
-  double watched = 0.0;                ///< s
-  std::string reason{};                ///< why it is undecided
+  double load_position = 0.0;            ///< rad
+  double load_speed = 0.0;               ///< rad/s
+  double motor_position = 0.0;           ///< rad, at the load's shaft
+  double motor_speed = 0.0;              ///< rad/s, at the load's shaft
+  std::string end{};                     ///< "rest", "cycle", "irregular", "diverges", "undecided"
+  std::optional<std::size_t> which{};    ///< index into the cycles, or into the irregular motions
+  double watched = 0.0;                  ///< s
+  std::string reason{};                  ///< why it is undecided
+  std::optional<double> time_to_rest{};  ///< s, as of Rest::time
 };
 
 /// From what step on a drive at rest does something else. Both shafts are displaced together.
@@ -309,6 +337,8 @@ struct Answer {
 [[nodiscard]] const char* name_of(CycleKind kind);
 /// "stable", "neutral", "unstable".
 [[nodiscard]] const char* name_of(Stability stability);
+/// "no limit", "dead band", "torque limit".
+[[nodiscard]] const char* name_of(RestKind kind);
 /// "closed form", "general".
 [[nodiscard]] const char* name_of(Engine engine);
 

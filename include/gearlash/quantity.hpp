@@ -27,6 +27,7 @@ enum class Quantity : std::uint8_t {
   impact_loss,
   residual,
   static_error,
+  time_to_rest,
   ceiling,
   motor_ceiling,
   effort_ceiling,

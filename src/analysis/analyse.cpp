@@ -181,25 +181,78 @@ const char* name_of(drive::MotionEnd end) {
   return "";
 }
 
-/// The rest that starts led to, with the ends of all equilibria where they are known. A drive that
-/// creeps is still on its way to them.
-Rest rest_of(const drive::RestFound& found, const std::optional<Rest>& computed) {
+/// Takes equilibria for where it rests: the ends are those where no torque limit acts.
+void add_pieces(const std::vector<RestPiece>& pieces, Rest& rest) {
+  rest.pieces = pieces;
+  rest.certainty = Certainty::computed;
+  const auto acts = [](const RestPiece& piece) { return piece.kind == RestKind::torque_limit; };
+  const bool all_are_limited = std::all_of(pieces.begin(), pieces.end(), acts);
+  Extent load;
+  Extent motor;
+  for (const RestPiece& piece : pieces) {
+    if (acts(piece) && !all_are_limited) continue;
+    for (const auto& [extent, bounds] : {std::pair(&load, &piece.load), {&motor, &piece.motor}}) {
+      extent->include(bounds->low);
+      extent->include(bounds->high);
+    }
+  }
+  rest.load = load;
+  rest.motor = motor;
+  rest.error = {-load.high, -load.low};
+}
+
+/// Whether a start came to rest there, or at the mirror image.
+bool is_reached(const RestPiece& piece, const drive::AttractorSearch& search,
+                const drive::ReducedDrive& reduced) {
+  const double near = 1e-3 * std::max(reduced.backlash, piece.load.high - piece.load.low);
+  const auto is_there = [&](double load) {
+    return piece.load.low - near <= load && load <= piece.load.high + near;
+  };
+  return std::any_of(search.outcomes.begin(), search.outcomes.end(), [&](const auto& start) {
+    return start.end == drive::MotionEnd::rest && (is_there(start.load) || is_there(-start.load));
+  });
+}
+
+std::optional<TimeToRest> time_of(const drive::AttractorSearch& search) {
+  std::vector<double> times;
+  for (const drive::Outcome& outcome : search.outcomes) {
+    if (outcome.end != drive::MotionEnd::rest) continue;
+    if (!outcome.time_to_rest) return std::nullopt;
+    times.push_back(*outcome.time_to_rest);
+  }
+  if (times.empty()) return std::nullopt;
+  std::sort(times.begin(), times.end());
+  return TimeToRest{search.band, times.back(), times[(times.size() - 1) / 2]};
+}
+
+/// The rest that starts led to, with all equilibria where they are known. Without dry friction,
+/// which holds the shafts, those count that starts approach: small disturbances leave others. A
+/// drive that creeps is still on its way to them.
+Rest rest_of(const drive::AttractorSearch& search, const drive::ReducedDrive& reduced) {
+  const drive::RestFound& found = *search.rest;
   Rest rest{.load = found.load,
             .motor = found.motor,
             .error = found.error,
             .starts = found.starts,
             .swing_ratio = known(found.swing_ratio),
-            .creeping_starts = found.creeping_starts};
-  if (!computed) return rest;
-  const bool creeps = found.creeping_starts > 0;
-  const auto ends_of = [&](const Bounds& equilibria, const Bounds& seen) {
-    return creeps ? Bounds{std::min(equilibria.low, seen.low), std::max(equilibria.high, seen.high)}
-                  : equilibria;
+            .creeping_starts = found.creeping_starts,
+            .time = time_of(search)};
+  std::vector<RestPiece> pieces = computed_rest(reduced);
+  const bool is_held = reduced.motor.friction.is_dry() || reduced.load.friction.is_dry();
+  if (!is_held) {
+    std::erase_if(pieces, [&](const auto& piece) { return !is_reached(piece, search, reduced); });
+  }
+  if (pieces.empty()) return rest;
+  const Rest seen = rest;
+  add_pieces(pieces, rest);
+  if (found.creeping_starts == 0) return rest;
+  const auto widen = [](Bounds& bounds, const Bounds& by) {
+    bounds = {std::min(bounds.low, by.low), std::max(bounds.high, by.high)};
   };
-  rest.load = ends_of(computed->load, rest.load);
-  rest.motor = ends_of(computed->motor, rest.motor);
+  widen(rest.load, seen.load);
+  widen(rest.motor, seen.motor);
   rest.error = {-rest.load.high, -rest.load.low};
-  rest.certainty = creeps ? Certainty::searched : Certainty::computed;
+  rest.certainty = Certainty::searched;
   return rest;
 }
 
@@ -210,7 +263,8 @@ StartOutcome outcome_of(const drive::Outcome& found) {
                        .motor_speed = found.start.motor_speed,
                        .end = name_of(found.end),
                        .watched = found.watched,
-                       .reason = found.reason};
+                       .reason = found.reason,
+                       .time_to_rest = found.time_to_rest};
   if (found.end == drive::MotionEnd::cycle || found.end == drive::MotionEnd::irregular) {
     outcome.which = found.which;
   }
@@ -269,7 +323,8 @@ Answer answer_by_energy(const drive::ReducedDrive& reduced) {
   answer.completeness = Certainty::enclosed;
   answer.engine = Engine::general;
   answer.is_dissipative = true;
-  answer.rest = computed_rest(reduced);
+  const std::vector<RestPiece> pieces = computed_rest(reduced);
+  if (!pieces.empty()) add_pieces(pieces, answer.rest.emplace());
   return answer;
 }
 
@@ -326,7 +381,7 @@ Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive
                                  .below = found.below,
                                  .from = found.from});
   }
-  if (search.rest) answer.rest = rest_of(*search.rest, computed_rest(reduced));
+  if (search.rest) answer.rest = rest_of(search, reduced);
   answer.search = SearchRecord{.watch_time = search.watch_time,
                                .is_complete = search.is_complete,
                                .borders = search.edges.size(),

@@ -89,11 +89,12 @@ Moving moving_part(const Matrix& matrix, const Vector& velocity) {
   return moving;
 }
 
-/// The ways (cₖ/λₖ) rₖ that decays still have to go, with a minus sign. Empty if one grows, or
-/// goes on for ever, or if eigenvectors are too inaccurate to tell.
+/// The ways (cₖ/λₖ) rₖ that decays still have to go, with a minus sign, and what goes on for ever.
+/// Empty if one grows, or if eigenvectors are too inaccurate to tell.
 struct Decays {
   Spectrum values;
   ComplexMatrix ways;  ///< columns
+  Vector drift;
 };
 
 std::optional<Decays> decays_of(const Moving& moving) {
@@ -103,7 +104,8 @@ std::optional<Decays> decays_of(const Moving& moving) {
   const double size = moving.matrix.cwiseAbs().maxCoeff();
   constexpr double accurate = 1e-3;
   constexpr double least_damping = 1e-9;
-  Decays decays{system.values, ComplexMatrix::Zero(system.vectors.rows(), system.vectors.cols())};
+  Decays decays{system.values, ComplexMatrix::Zero(system.vectors.rows(), system.vectors.cols()),
+                Vector::Zero(moving.velocity.size())};
   if (!shares.allFinite()) return std::nullopt;
   for (Index k = 0; k < shares.size(); ++k) {
     const Spectrum& vector = system.vectors.col(k);
@@ -114,49 +116,61 @@ std::optional<Decays> decays_of(const Moving& moving) {
     const bool decays_surely = is_accurate && -value.real() > least_damping * std::abs(value);
     if (decays_surely) {
       decays.ways.col(k) = shares[k] / value * vector;
-    } else if (std::abs(value) > rounding * size || part > rounding * speed) {
+    } else if (std::abs(value) > rounding * size) {
       return std::nullopt;
+    } else if (part > rounding * speed) {
+      decays.drift += (shares[k] * vector).real();
     }
   }
+  // A velocity that itself grows is no drift.
+  const double left = (moving.matrix * decays.drift).cwiseAbs().maxCoeff();
+  if (left > rounding * size * decays.drift.cwiseAbs().maxCoeff()) return std::nullopt;
   const Vector sum = (system.vectors * shares).real();
   if (!((sum - moving.velocity).cwiseAbs().maxCoeff() <= accurate * speed)) return std::nullopt;
   return decays;
 }
 
-/// Whether the terms of a guard, of which `last` remains in the end, keep it on its side. `size` is
+/// Where a guard is in the end.
+enum class GuardEnd { crossed, border, off };
+
+/// Where the terms of a guard, of which `last` and a drift remain in the end, leave it. `size` is
 /// that of all numbers in it: eigenvectors are known to rounding of their largest number.
-bool keeps_its_sign(double last, double size, const Spectrum& terms, const Spectrum& values) {
+GuardEnd end_of(double last, double drift, double size, const Spectrum& terms,
+                const Spectrum& values) {
   const double all = terms.cwiseAbs().sum();
   const double unknown = sum_rounding * size + rounding * all;
-  if (all <= sum_rounding * size) return true;  // constant
+  const double now = last + terms.sum().real();
+  if (drift * now < 0.0) return GuardEnd::crossed;
+  if (all <= sum_rounding * size) return GuardEnd::off;  // constant
   std::optional<Index> slowest;
   for (Index k = 0; k < terms.size(); ++k) {
     const bool counts = std::abs(terms[k]) > unknown;
     if (counts && (!slowest || values[k].real() > values[*slowest].real())) slowest = k;
   }
-  const double side = last + terms.sum().real() < 0.0 ? -1.0 : 1.0;
+  const double side = now < 0.0 ? -1.0 : 1.0;
   const bool is_real = slowest && values[*slowest].imag() == 0.0;
   const double slow = is_real ? side * terms[*slowest].real() : 0.0;
   const double others = all - std::abs(slow);
-  if (side * last < -unknown) return false;
-  if (side * last <= unknown) return slow > others;
-  return side * last + std::min(slow, 0.0) > others;
+  if (side * last < -unknown) return GuardEnd::crossed;
+  if (side * last <= unknown) return slow > others ? GuardEnd::border : GuardEnd::crossed;
+  return side * last + std::min(slow, 0.0) > others ? GuardEnd::off : GuardEnd::crossed;
 }
 
 }  // namespace
 
-std::optional<Vector> limit_in_mode(const AffineMode& mode, const Vector& numbers) {
+std::optional<LimitInMode> limit_in_mode(const AffineMode& mode, const Vector& numbers) {
   if (!mode.timed.empty()) return std::nullopt;
   const Vector velocity = mode.flow.matrix * numbers + mode.flow.offset;
   const Moving moving = moving_part(mode.flow.matrix, velocity);
-  if (moving.numbers.empty()) return numbers;
+  LimitInMode limit{numbers, Vector::Zero(numbers.size())};
+  if (moving.numbers.empty()) return limit;
   const auto decays = decays_of(moving);
   if (!decays) return std::nullopt;
   const Vector still_to_go = -decays->ways.rowwise().sum().real();
-  Vector limit = numbers;
   for (std::size_t row = 0; row < moving.numbers.size(); ++row) {
     for (const Index number : moving.numbers[row]) {
-      limit[number] += still_to_go[static_cast<Index>(row)];
+      limit.numbers[number] += still_to_go[static_cast<Index>(row)];
+      limit.drift[number] = decays->drift[static_cast<Index>(row)];
     }
   }
   for (const Transition& transition : mode.transitions) {
@@ -167,10 +181,14 @@ std::optional<Vector> limit_in_mode(const AffineMode& mode, const Vector& number
         normal[static_cast<Index>(row)] += guard.normal[number];
       }
     }
-    const double size = guard.normal.cwiseAbs().dot(limit.cwiseAbs()) + std::abs(guard.offset) +
+    const double size = guard.normal.cwiseAbs().dot(limit.numbers.cwiseAbs()) +
+                        std::abs(guard.offset) +
                         normal.cwiseAbs().sum() * decays->ways.cwiseAbs().maxCoeff();
     const Spectrum terms = decays->ways.transpose() * normal.cast<Complex>();
-    if (!keeps_its_sign(guard.at(limit), size, terms, decays->values)) return std::nullopt;
+    const GuardEnd end =
+        end_of(guard.at(limit.numbers), normal.dot(decays->drift), size, terms, decays->values);
+    if (end == GuardEnd::crossed) return std::nullopt;
+    limit.is_on_border = limit.is_on_border || end == GuardEnd::border;
   }
   return limit;
 }

@@ -121,6 +121,18 @@ const char* name_of(Stability stability) {
   return "";
 }
 
+const char* name_of(RestKind kind) {
+  switch (kind) {
+    case RestKind::no_limit:
+      return "no limit";
+    case RestKind::dead_band:
+      return "dead band";
+    case RestKind::torque_limit:
+      return "torque limit";
+  }
+  return "";
+}
+
 const char* name_of(Engine engine) {
   return engine == Engine::closed_form ? "closed form" : "general";
 }

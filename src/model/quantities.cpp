@@ -80,6 +80,10 @@ Value static_error_of(const Answer& answer) {
   return std::max(std::abs(answer.rest->error.low), std::abs(answer.rest->error.high));
 }
 
+Value time_to_rest_of(const Answer& answer) {
+  return answer.rest && answer.rest->time ? Value(answer.rest->time->longest) : std::nullopt;
+}
+
 template <auto member>
 Value of_ceiling(const Answer& answer) {
   return answer.ceiling ? (*answer.ceiling).*member : std::nullopt;
@@ -163,6 +167,11 @@ constexpr std::array entries = {
                  "largest error at rest that was found, reference minus load", of_answer, number},
         .dimension = &dimensions::angle,
         .value = static_error_of},
+    QuantityEntry{
+        .info = {Quantity::time_to_rest, "time_to_rest", "s",
+                 "longest time to rest of the starts that were searched", of_answer, number},
+        .dimension = &dimensions::time,
+        .value = time_to_rest_of},
     QuantityEntry{
         .info = {Quantity::ceiling, "ceiling", "rad",
                  "proved bound of the load's motion in the end", QuantityScope::ceiling, number},

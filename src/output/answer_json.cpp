@@ -65,14 +65,35 @@ Json json_irregular(const IrregularMotion& motion) {
           {"starts", motion.starts}};
 }
 
+const char* name_of_direction(double direction) {
+  if (direction == 0.0) return "both";
+  return direction > 0.0 ? "forward" : "backward";
+}
+
+Json json_piece(const RestPiece& piece) {
+  return {{"kind", name_of(piece.kind)},
+          {"side", name_of_direction(piece.side)},
+          {"load", json_range(piece.load)},
+          {"motor", json_range(piece.motor)}};
+}
+
+Json json_time(const std::optional<TimeToRest>& time) {
+  if (!time) return nullptr;
+  return {{"band", json_number(time->band)},
+          {"longest", json_number(time->longest)},
+          {"median", json_number(time->median)}};
+}
+
 Json json_rest(const std::optional<Rest>& rest) {
   if (!rest) return nullptr;
   return {{"load", json_range(rest->load)},
           {"motor", json_range(rest->motor)},
           {"error", json_range(rest->error)},
+          {"pieces", json_list(rest->pieces, json_piece)},
           {"certainty", name_of(rest->certainty)},
           {"swing_ratio", json_optional(rest->swing_ratio)},
           {"creeping_starts", rest->creeping_starts},
+          {"time_to_rest", json_time(rest->time)},
           {"starts", rest->starts}};
 }
 
@@ -84,9 +105,7 @@ Json json_runaway(const Answer& answer) {
 
 Json json_threshold(const Threshold& threshold) {
   return {{"end", threshold.end},
-          {"direction", threshold.direction == 0.0  ? "both"
-                        : threshold.direction > 0.0 ? "forward"
-                                                    : "backward"},
+          {"direction", name_of_direction(threshold.direction)},
           {"below", json_number(threshold.below)},
           {"from", json_number(threshold.from)}};
 }
@@ -99,7 +118,8 @@ Json json_start(const StartOutcome& start) {
           {"end", start.end},
           {"which", start.which ? Json(*start.which) : Json(nullptr)},
           {"watched", json_number(start.watched)},
-          {"reason", start.reason.empty() ? Json(nullptr) : Json(start.reason)}};
+          {"reason", start.reason.empty() ? Json(nullptr) : Json(start.reason)},
+          {"time_to_rest", json_optional(start.time_to_rest)}};
 }
 
 Json json_search(const std::optional<SearchRecord>& search) {

@@ -294,7 +294,20 @@ std::string rest_text(const AnswerReport& report) {
       {"these are",
        rest.certainty == Certainty::computed ? "the ends of all equilibria" : "where starts led",
        ""}};
+  for (const RestPiece& piece : rest.pieces) {
+    if (piece.kind == RestKind::no_limit) continue;
+    rows.push_back({piece.kind == RestKind::dead_band ? "load in the dead band"
+                    : piece.side > 0.0                ? "load at the limit, forward"
+                                                      : "load at the limit, backward",
+                    range_text(report, piece.load), ""});
+  }
   if (rest.starts > 0) rows.push_back({"reached from", starts_text(rest.starts), ""});
+  if (rest.time) {
+    const Units units(report);
+    rows.push_back({"time to rest, longest", units.time(rest.time->longest),
+                    "within " + swing_text(rest.time->band, report.angle, table_digits)});
+    rows.push_back({"time to rest, median", units.time(rest.time->median), ""});
+  }
   if (rest.creeping_starts > 0) {
     rows.push_back(
         {"creeps there", starts_text(rest.creeping_starts), "moves ever later, or hardly ever"});

@@ -63,7 +63,7 @@ bool creeps(const ReducedDrive& drive, const std::vector<Pausing>& all) {
   const Watch watch{.here = setting.start({}),
                     .load = is_of_load ? pausing : other,
                     .motor = is_of_load ? other : pausing};
-  return is_creeping(watch, setting, {});
+  return creeping(watch, setting, {}).has_value();
 }
 
 TEST(Creeping, IsEverLaterAndNearerByOneRatio) {
@@ -124,7 +124,7 @@ TEST(Creeping, NeedsBothShaftsToStandWhereFrictionHoldsTheOtherAlone) {
       watch.motor.push_back({time, one.at + 0.15});
     }
   }
-  EXPECT_TRUE(is_creeping(watch, setting, {}));
+  EXPECT_TRUE(creeping(watch, setting, {}));
 }
 
 TEST(Creeping, NeedsIntegralActionOfTheErrorItself) {

@@ -162,8 +162,12 @@ TEST(SearchTolerances, SwingsThatShrinkAreNotSteady) {
   const ReducedDrive slow = servo_drive(1e-3, 1.0, 0.5);
   options.tolerances.irregular.steadiness = 0.1;
   EXPECT_EQ(find_attractors(slow, options).count(MotionEnd::undecided), 1U);
+  EXPECT_EQ(find_attractors(slow, options).outcomes[0].reason.find("may still decay"),
+            std::string::npos);
   options.tolerances.irregular.steadiness = 0.3;
-  EXPECT_EQ(find_attractors(slow, options).count(MotionEnd::irregular), 1U);
+  const AttractorSearch found = find_attractors(slow, options);
+  EXPECT_EQ(found.count(MotionEnd::undecided), 1U);
+  EXPECT_NE(found.outcomes[0].reason.find("may still decay"), std::string::npos);
 }
 
 TEST(SearchTolerances, ChosenStarts) {

@@ -71,9 +71,8 @@ TEST(Transient, OfASearchIsListedOnce) {
   beside.load_speed *= 1.02;
   beside.motor_speed *= 1.02;
   options.starts = {on_it, beside};
-  options.swing_times = 1.0;
+  options.swing_times = 8.0;
   options.budget.patience = 1.0;
-  options.tolerances.irregular.least_turns = 4;
   for (const bool is_closed : {true, false}) {
     options.tolerances.cycle.wide_nearness = options.tolerances.cycle.widest_nearness =
         is_closed ? 1e-3 : 0.0;

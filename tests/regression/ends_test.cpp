@@ -55,5 +55,90 @@ TEST(Ends, PausesShorterThanASwingAreNoCreeping) {
   EXPECT_TRUE(std::any_of(answer.cycles.begin(), answer.cycles.end(), is_that_swing));
 }
 
+/// By statics: friction holds 0.1 N m of 18 N m/rad about the reference; at its limit of 2 N m the
+/// motor holds a load that leans by 0.95 to 1.05 rad.
+TEST(Ends, AnInvertedLoadRestsInThreePieces) {
+  const Answer answer = answer_of("inverted-load");
+  ASSERT_TRUE(answer.rest);
+  EXPECT_NEAR(*answer.value(Quantity::static_error), 0.1 / 18.0, 1e-9);
+  ASSERT_EQ(answer.rest->pieces.size(), 3U);
+  EXPECT_NEAR(answer.rest->pieces[1].load.low, -1.05, 1e-9);
+  EXPECT_NEAR(answer.rest->pieces[2].load.high, 1.05, 1e-9);
+}
+
+/// Followed on, the start that takes longest rests from 250 s on, to within its half step of the
+/// encoder at 407 s (simulate, to 2000 s).
+TEST(Ends, ATransientOfMinutesIsNoHunting) {
+  const Answer answer = answer_of("rests-after-minutes");
+  EXPECT_EQ(answer.verdict, Verdict::comes_to_rest);
+  ASSERT_TRUE(answer.rest->time);
+  EXPECT_GT(answer.rest->time->longest, 200.0);
+  EXPECT_LT(answer.rest->time->longest, 800.0);
+  EXPECT_EQ(answer.value(Quantity::time_to_rest), answer.rest->time->longest);
+}
+
+/// Each reversal leaves 0.65 to 0.75 of the swing, as the clock's ticks fall (simulate, to 4000 s).
+TEST(Ends, SwingsWhoseRatiosScatterVanish) {
+  const Answer answer = answer_of("swings-shrink-by-clocked-ratios");
+  EXPECT_EQ(answer.verdict, Verdict::comes_to_rest);
+  EXPECT_EQ(answer.search->count("rest"), answer.search->starts.size());
+}
+
+/// From four large starts it decays with its faces together to a rest without friction that any
+/// disturbance leaves; an independent simulator hunts from there.
+TEST(Ends, WhatSmallDisturbancesLeaveIsNoRest) {
+  const Answer answer = answer_of("decays-to-a-rest-that-is-left");
+  EXPECT_EQ(answer.verdict, Verdict::hunts);
+  EXPECT_FALSE(answer.rest);
+  EXPECT_EQ(answer.search->count("cycle"), answer.search->starts.size());
+}
+
+/// The motor stops 1e-20 rad beside the reference. The load hangs at the back of the gap, by its
+/// weight of 0.00668 N m against its friction of 0.00603 N m.
+TEST(Ends, RoundingIsNotIntegrated) {
+  const Answer answer = answer_of("rounding-would-be-integrated");
+  EXPECT_EQ(answer.search->count("undecided"), 0U);
+  ASSERT_EQ(answer.rest->pieces.size(), 1U);
+  EXPECT_NEAR(answer.rest->load.low, -0.0010525, 1e-12);
+  ASSERT_TRUE(answer.rest->time);
+  EXPECT_LT(answer.rest->time->longest, 10.0);
+}
+
+TEST(Ends, OneUndecidedStartOfManyIsNotTheVerdict) {
+  for (const char* file : {"one-start-undecided-b59", "one-start-undecided-c16"}) {
+    EXPECT_EQ(answer_of(file).verdict, Verdict::comes_to_rest) << file;
+  }
+}
+
+/// The largest torque of the error is 1.2e-4 N m, and the motor holds 3e-3 N m.
+TEST(Ends, ShaftsThatStandUnderASineAreAtRest) {
+  const Answer answer = answer_of("stands-under-a-sine");
+  EXPECT_EQ(answer.verdict, Verdict::comes_to_rest);
+  EXPECT_EQ(answer.search->count("rest"), answer.search->starts.size());
+}
+
+/// Starts within half a step of the middle are read as 0, and the integral of the sine goes to and
+/// fro: they stand. All others join one motion.
+TEST(Ends, StartsUnderASineStandOrJoinOneMotion) {
+  const Answer answer = answer_of("stands-or-hunts-under-a-sine");
+  EXPECT_EQ(answer.verdict, Verdict::forced);
+  EXPECT_EQ(answer.search->count("undecided"), 0U);
+  EXPECT_EQ(answer.search->count("rest"), 18U);
+  EXPECT_EQ(answer.irregular.size(), 1U);
+}
+
+/// All starts near the ramp join one motion, of one size. From far away the integral winds up, and
+/// swings grow without end (simulate: by 100 rad each, to 8000 s).
+TEST(Ends, OnARampOneMotionIsListedOnce) {
+  for (const auto& [file, amplitude] :
+       {std::pair("ramp-with-encoder-d29", 0.0024), std::pair("ramp-with-encoder-d32", 0.00524)}) {
+    const Answer answer = answer_of(file);
+    ASSERT_EQ(answer.irregular.size(), 1U) << file;
+    EXPECT_NEAR(answer.irregular[0].amplitude, amplitude, 0.01 * amplitude) << file;
+    EXPECT_GT(answer.search->count("diverges"), 0U) << file;
+    EXPECT_EQ(answer.search->count("undecided"), 0U) << file;
+  }
+}
+
 }  // namespace
 }  // namespace gearlash::ends_test

@@ -232,13 +232,13 @@ TEST(ReportedRest, OfADriveThatIsItsMirrorImageIsOneToo) {
   }
 }
 
-/// Of a dead band the rest is not computed but that of the starts, which begin on one side.
+/// Starts begin on one side.
 TEST(ReportedRest, OfStartsOnOneSideHasItsMirrorImage) {
   Drive drive = drive_of("industrial/rnd04.toml");
   drive.controller.dead_band.width = 0.01;
   const Answer answer = analyse(drive);
   ASSERT_TRUE(answer.rest);
-  EXPECT_EQ(answer.rest->certainty, Certainty::searched);
+  EXPECT_EQ(answer.rest->certainty, Certainty::computed);
   EXPECT_GT(answer.rest->load.high, 0.0);
   expect_mirrored(answer.rest->load);
   expect_mirrored(answer.rest->motor);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <tuple>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -91,34 +94,141 @@ constexpr double endless = 1e6;
 
 enum class Engaged { backward, none, forward };
 
+/// A branch of what the controller receives instead of its error e: gain · e + offset, where
+/// low ≤ −e ≤ high.
+struct ErrorBranch {
+  double gain = 1.0;
+  double offset = 0.0;
+  double low = -infinity;
+  double high = infinity;
+};
+
+std::vector<ErrorBranch> branches_of(const drive::ErrorShape& shape) {
+  if (!shape.is_present()) return {{}};
+  std::vector<ErrorBranch> all;
+  if (!shape.is_two_level()) {
+    const double half = shape.is_of_speed ? infinity : shape.begins;
+    all.push_back({.gain = shape.inner_gain, .low = -half, .high = half});
+  }
+  for (const double side : {1.0, -1.0}) {  // of the error
+    ErrorBranch outer{.gain = shape.outer_gain, .offset = side * shape.offset};
+    if (!shape.is_of_speed) {
+      (side > 0.0 ? outer.high : outer.low) = -side * shape.ends;
+    } else if (shape.ends > 0.0) {
+      continue;  // at rest it ends
+    }
+    all.push_back(outer);
+  }
+  return all;
+}
+
+/// What the motor makes of the requested torque: as it is, or a limit.
+struct TorqueLevel {
+  double side = 0.0;               ///< of the limit; 0: none acts
+  bool is_asked_for_less = false;  ///< the controller knows of the limit
+  double applied = 0.0;            ///< N m, of a limit
+  double low = -infinity;          ///< N m, of the requested torque
+  double high = infinity;
+};
+
+std::vector<TorqueLevel> levels_of(const ReducedDrive& drive) {
+  const double known = drive.torque_limit;
+  const double of_current = drive.winding.torque_limit;
+  const double lowest = std::min(known, of_current);
+  std::vector<TorqueLevel> all = {{.low = -lowest, .high = lowest}};
+  for (const double side : {1.0, -1.0}) {
+    const auto add = [&](bool is_known, double from, double to) {
+      TorqueLevel level{side, is_known, side * lowest, from, to};
+      if (side < 0.0) std::tie(level.low, level.high) = std::pair(-to, -from);
+      all.push_back(level);
+    };
+    if (of_current < known) add(false, of_current, known);
+    if (std::isfinite(known)) add(true, known, infinity);
+  }
+  return all;
+}
+
 class Equilibria {
  public:
   Equilibria(const ReducedDrive& drive, double reference, double load_torque)
       : drive_(drive), reference_(reference), load_torque_(load_torque) {}
 
-  /// Those of all contact states, with the torque within its limit or at one.
-  void find() {
-    add_with(std::nullopt);
-    if (!std::isfinite(drive_.torque_limit)) return;
-    add_with(drive_.torque_limit);
-    add_with(-drive_.torque_limit);
+  /// Those of all contact states, torque limits and branches of the error, merged by kind.
+  std::vector<RestPiece> pieces() {
+    for (const TorqueLevel& level : levels_of(drive_)) {
+      const auto limit =
+          level.is_asked_for_less ? std::optional(level.side * drive_.torque_limit) : std::nullopt;
+      const auto requests = standing_requests(drive_, reference_, limit);
+      if (!requests) continue;
+      for (const ErrorBranch& branch : branches_of(drive_.error_shape)) {
+        add_with(level, branch, *requests);
+      }
+    }
+    return pieces_;
   }
 
-  const Extent& of_load() const { return load_; }
-  const Extent& of_motor() const { return motor_; }
-
  private:
-  void add_with(std::optional<double> limit) {
-    const auto requests = standing_requests(drive_, reference_, limit);
-    if (!requests) return;
-    if (drive::is_joined(drive_)) return add(standing(Engaged::none, limit), *requests);
-    for (const Engaged face : {Engaged::backward, Engaged::none, Engaged::forward}) {
-      add(standing(face, limit), *requests);
+  void add_with(const TorqueLevel& level, const ErrorBranch& branch,
+                const StandingRequests& requests) {
+    const bool is_dead = branch.gain == 0.0 && branch.offset == 0.0;
+    const auto kind = level.side != 0.0 ? RestKind::torque_limit
+                      : is_dead         ? RestKind::dead_band
+                                        : RestKind::no_limit;
+    load_ = motor_ = Extent();
+    if (const auto read = requests_of_readings(branch, requests)) {
+      for (const Engaged face : {Engaged::backward, Engaged::none, Engaged::forward}) {
+        const bool exists = face == Engaged::none || !drive::is_joined(drive_);
+        if (exists) add(standing(face, level), *read, branch);
+      }
     }
+    if (load_.low <= load_.high) merge(kind, level.side);
+  }
+
+  void merge(RestKind kind, double side) {
+    const auto piece = std::find_if(pieces_.begin(), pieces_.end(), [&](const RestPiece& one) {
+      return one.kind == kind && one.side == side;
+    });
+    if (piece == pieces_.end()) {
+      pieces_.push_back({kind, side, load_, motor_});
+      return;
+    }
+    const auto widen = [](Bounds& bounds, const Extent& by) {
+      bounds = {std::min(bounds.low, by.low), std::max(bounds.high, by.high)};
+    };
+    widen(piece->load, load_);
+    widen(piece->motor, motor_);
+  }
+
+  /// With the error's branch between reading and controller. Empty if nothing stands on it.
+  std::optional<StandingRequests> requests_of_readings(const ErrorBranch& branch,
+                                                       const StandingRequests& requests) const {
+    StandingRequests read = requests;
+    if (branch.gain != 0.0) {
+      read.one[0] = reference_ + (requests.one[0] - reference_ + branch.offset) / branch.gain;
+      for (Vector2d& direction : read.directions) direction[0] /= branch.gain;
+      return read;
+    }
+    // The controller receives one number, whatever the reading.
+    constexpr double rounding = 1e-12;
+    const double received = reference_ - branch.offset;
+    const double off = received - requests.one[0];
+    const Vector2d any_reading(1.0, 0.0);
+    read.directions = {any_reading};
+    for (const Vector2d& direction : requests.directions) {
+      if (direction[0] == 0.0) read.directions = {any_reading, Vector2d(0.0, 1.0)};
+    }
+    const auto moves = std::find_if(requests.directions.begin(), requests.directions.end(),
+                                    [](const Vector2d& one) { return one[0] != 0.0; });
+    if (moves != requests.directions.end()) {
+      read.one[1] += off / (*moves)[0] * (*moves)[1];
+    } else if (std::abs(off) > rounding * (std::abs(received) + std::abs(requests.one[0]))) {
+      return std::nullopt;
+    }
+    return read;
   }
 
   /// The balance of both shafts, and the contact.
-  Polytope standing(Engaged face, std::optional<double> limit) const {
+  Polytope standing(Engaged face, const TorqueLevel& level) const {
     Polytope all(unknowns);
     const double load_friction = drive_.load.friction.breakaway;
     const double motor_friction = drive_.motor.friction.breakaway;
@@ -126,14 +236,12 @@ class Equilibria {
     const double pulled = load_torque_ - gravity.stiffness * (reference_ - gravity.angle);
     all.between(unit(mesh) - gravity.stiffness * unit(load), -pulled - load_friction,
                 -pulled + load_friction);
-    if (limit) {
-      all.between(unit(mesh), *limit - motor_friction, *limit + motor_friction);
-      if (*limit > 0.0) all.between(unit(torque), *limit, infinity);
-      if (*limit < 0.0) all.between(unit(torque), -infinity, *limit);
+    if (level.side != 0.0) {
+      all.between(unit(mesh), level.applied - motor_friction, level.applied + motor_friction);
     } else {
       all.between(unit(torque) - unit(mesh), -motor_friction, motor_friction);
-      all.between(unit(torque), -drive_.torque_limit, drive_.torque_limit);
     }
+    all.between(unit(torque), level.low, level.high);
     touch(face, all);
     all.between(unit(load), -endless, endless);
     return all;
@@ -160,24 +268,40 @@ class Equilibria {
     return unit(load) + (1.0 - drive_.sensing.load_share_of_position) * unit(gap);
   }
 
-  void add(const Polytope& standing, const StandingRequests& requests) {
-    if (requests.directions.size() == 2) return include(standing);
+  /// Standing, requested and read on a branch of the error.
+  void add(const Polytope& standing, const StandingRequests& requests, const ErrorBranch& branch) {
     const double step = drive_.sensing.resolution;
-    if (step > 0.0) return add_read(standing, requests, step);
     Polytope all = standing;
+    if (step == 0.0) {
+      all.between(sensed(), branch.low, branch.high);
+      if (requests.directions.size() < 2) ask(requests, all);
+      return include(all);
+    }
+    const double first = std::ceil((reference_ + branch.low) / step - of_a_count);
+    const double last = std::floor((reference_ + branch.high) / step + of_a_count);
+    if (first > last) return;
+    all.between(sensed(), (first - 0.5) * step - reference_, (last + 0.5) * step - reference_);
+    if (requests.directions.size() == 2) return include(all);
+    add_read(all, requests, first, last);
+  }
+
+  /// The requested torque is that of the sensed position.
+  void ask(const StandingRequests& requests, Polytope& all) const {
     const Vector2d& one = requests.one;
     if (requests.directions.empty()) {
       all.equal(sensed(), one[0] - reference_).equal(unit(torque), one[1]);
-    } else {
-      const Vector2d& way = requests.directions.front();
-      all.equal(way[1] * sensed() - way[0] * unit(torque),
-                way[1] * (one[0] - reference_) - way[0] * one[1]);
+      return;
     }
-    include(all);
+    const Vector2d& way = requests.directions.front();
+    all.equal(way[1] * sensed() - way[0] * unit(torque),
+              way[1] * (one[0] - reference_) - way[0] * one[1]);
   }
 
-  /// With an encoder: each of its readings has its own torque, and its own positions.
-  void add_read(const Polytope& standing, const StandingRequests& requests, double step) {
+  /// With an encoder: each of its readings, from `least` to `most` steps, has its own torque, and
+  /// its own positions.
+  void add_read(const Polytope& standing, const StandingRequests& requests, double least,
+                double most) {
+    const double step = drive_.sensing.resolution;
     const Vector2d& one = requests.one;
     const auto in_step = [&](Polytope all, double reading) {
       return all.between(sensed(), reading - 0.5 * step - reference_,
@@ -187,9 +311,8 @@ class Equilibria {
         requests.directions.empty() ? Vector2d(0.0, 0.0) : requests.directions.front();
     if (way[0] == 0.0) {
       // Only one reading lets it stand, if the encoder has it.
-      constexpr double whole = 1e-6;
       const double steps = one[0] / step;
-      if (std::abs(steps - std::round(steps)) > whole) return;
+      if (std::abs(steps - std::round(steps)) > of_a_count) return;
       Polytope all = in_step(standing, one[0]);
       if (requests.directions.empty()) all.equal(unit(torque), one[1]);
       return include(all);
@@ -204,8 +327,14 @@ class Equilibria {
     const auto range = any.range_of(unit(torque));
     if (!range) return;
     const auto reading_at = [&](double value) { return (one[0] + (value - one[1]) / gain) / step; };
-    const double first = std::ceil(std::min(reading_at(range->low), reading_at(range->high)) - 0.5);
-    const double last = std::floor(std::max(reading_at(range->low), reading_at(range->high)) + 0.5);
+    const Extent readings = [&] {
+      Extent all;
+      all.include(reading_at(range->low));
+      all.include(reading_at(range->high));
+      return all;
+    }();
+    const double first = std::max(least, std::ceil(readings.low - 0.5));
+    const double last = std::min(most, std::floor(readings.high + 0.5));
     // Readings within the range add nothing to its ends.
     constexpr double outer = 64.0;
     for (double reading = first; reading <= last; reading += 1.0) {
@@ -226,31 +355,29 @@ class Equilibria {
     add_to(motor_, unit(load) + unit(gap));
   }
 
+  /// Of a step: readings nearer than this to a whole one are it.
+  static constexpr double of_a_count = 1e-6;
+
   const ReducedDrive& drive_;
   double reference_;
   double load_torque_;
-  Extent load_;
+  Extent load_;  ///< of the equilibria that are being added
   Extent motor_;
+  std::vector<RestPiece> pieces_;
 };
 
 }  // namespace
 
-std::optional<Rest> computed_rest(const ReducedDrive& drive) {
+std::vector<RestPiece> computed_rest(const ReducedDrive& drive) {
   const auto* reference = std::get_if<double>(&drive.reference);
   const auto* load_torque = std::get_if<double>(&drive.load_torque);
-  if (reference == nullptr || load_torque == nullptr || !drive::has_linear_control(drive) ||
-      std::isfinite(drive.winding.torque_limit)) {
-    return std::nullopt;
-  }
-  Equilibria equilibria(drive, *reference, *load_torque);
-  equilibria.find();
-  const Extent& load = equilibria.of_load();
-  const bool has_ends = load.low > -0.5 * endless && load.high < 0.5 * endless;
-  if (!has_ends || load.low > load.high) return std::nullopt;
-  return Rest{.load = load,
-              .motor = equilibria.of_motor(),
-              .error = {-load.high, -load.low},
-              .certainty = Certainty::computed};
+  if (reference == nullptr || load_torque == nullptr || !drive.feedforward.is_absent()) return {};
+  std::vector<RestPiece> pieces = Equilibria(drive, *reference, *load_torque).pieces();
+  const bool have_ends = std::all_of(pieces.begin(), pieces.end(), [](const RestPiece& piece) {
+    return piece.load.low > -0.5 * endless && piece.load.high < 0.5 * endless;
+  });
+  if (!have_ends) pieces.clear();
+  return pieces;
 }
 
 }  // namespace gearlash

@@ -47,6 +47,7 @@ class Search {
     setting_ = motion ? scaled(unscaled_, *motion) : unscaled_;
     result_.coordinates = setting_.coordinates;
     result_.system = unscaled_.system.system();
+    result_.band = options.band > 0.0 ? options.band : usual_band();
     result_.swing_time = setting_.swing_time;
     result_.settling_time = setting_.settling_time;
     const double swings = options.swing_times * setting_.swing_time;
@@ -64,7 +65,7 @@ class Search {
     if (options_.nearby != nullptr) close_near(*options_.nearby);
     for (const ShaftStates& start : starts_) {
       if (!goes_on()) break;
-      verdicts_.push_back(classifier_.end_of(setting_.start(start), budget_.patience));
+      verdicts_.push_back(end_of(start));
       record(start, verdicts_.back());
       ++done_;
       if (options_.is_enough && options_.is_enough(result_)) break;
@@ -87,6 +88,12 @@ class Search {
   }
 
  private:
+  double usual_band() const {
+    const double step = setting_.drive.sensing.resolution;
+    constexpr double of_gap = 0.01;
+    return step > 0.0 ? 0.5 * step : of_gap * setting_.small_length;
+  }
+
   bool goes_on() {
     if (!result_.is_complete) return false;
     const auto all = static_cast<double>(starts_.size() + options_.most_edges);
@@ -94,6 +101,14 @@ class Search {
       result_.is_complete = false;
     }
     return result_.is_complete;
+  }
+
+  Verdict end_of(const ShaftStates& start, double longer = 1.0) {
+    Verdict verdict = classifier_.end_of(setting_.start(start), budget_.patience, longer);
+    if (verdict.end == MotionEnd::rest) {
+      verdict.time_to_rest = classifier_.time_to_rest(verdict, result_.band);
+    }
+    return verdict;
   }
 
   /// A short first motion, which shows the magnitude of the numbers: that of the middle start, or
@@ -148,8 +163,17 @@ class Search {
   // ---- the record -------------------------------------------------------------------------------
 
   void record(const ShaftStates& start, const Verdict& verdict) {
-    Outcome outcome{start, verdict.end, verdict.which, verdict.watched, verdict.reason};
-    if (verdict.end == MotionEnd::rest) record_rest(verdict);
+    Outcome outcome{.start = start,
+                    .end = verdict.end,
+                    .which = verdict.which,
+                    .watched = verdict.watched,
+                    .reason = verdict.reason,
+                    .time_to_rest = verdict.time_to_rest};
+    if (verdict.end == MotionEnd::rest) {
+      record_rest(verdict);
+      outcome.load = verdict.rest.back().load;
+      outcome.motor = verdict.rest.back().motor;
+    }
     if (verdict.end == MotionEnd::cycle) ++result_.cycles[verdict.which].starts;
     if (verdict.end == MotionEnd::irregular) {
       outcome.which = place_among(result_.irregular, verdict.irregular, tolerances_.irregular);
@@ -186,8 +210,7 @@ class Search {
         continue;
       }
       if (!goes_on()) break;
-      Verdict later = classifier_.end_of(setting_.start(starts_[i]), budget_.patience,
-                                         budget_.longer_if_transient);
+      Verdict later = end_of(starts_[i], budget_.longer_if_transient);
       if (later.is_attracted()) {
         verdict = std::move(later);
         is_any_over = true;

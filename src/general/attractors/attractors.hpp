@@ -83,6 +83,8 @@ struct IrregularFound {
   /// equations with saltation: above 0 for chaos, about 0 for quasi-periodic motion. Empty behind
   /// an encoder, whose steps have no derivative.
   std::optional<double> exponent;
+  /// 1/s, the fastest decay of its swings that the measurement does not exclude at 95 %.
+  double fastest_decay = 0.0;
   double watched = 0.0;    ///< s, duration of the measurement
   std::size_t swings = 0;  ///< from extreme to extreme, measured
   std::size_t starts = 0;
@@ -94,9 +96,12 @@ enum class MotionEnd { rest, cycle, irregular, diverges, undecided };
 struct Outcome {
   ShaftStates start;
   MotionEnd end = MotionEnd::undecided;
-  std::size_t which = 0;  ///< index into the cycles, or into the irregular motions
-  double watched = 0.0;   ///< s
-  std::string reason;     ///< why it is undecided
+  std::size_t which = 0;               ///< index into the cycles, or into the irregular motions
+  double watched = 0.0;                ///< s
+  std::string reason;                  ///< why it is undecided
+  double load = 0.0;                   ///< rad, from the reference, where it rests
+  double motor = 0.0;                  ///< rad, likewise
+  std::optional<double> time_to_rest;  ///< s, if it rests; see AttractorOptions::band
 };
 
 /// Between two starts with different outcomes, motion was sought that goes to neither.
@@ -117,6 +122,7 @@ struct FoundThreshold {
 };
 
 struct AttractorSearch {
+  double band = 0.0;  ///< rad, of times to rest
   Coordinates coordinates = Coordinates::fixed;
   hybrid::HybridSystem system;     ///< with settled signals, positions from the reference
   std::vector<FoundCycle> cycles;  ///< stable ones first, by falling amplitude
@@ -153,6 +159,9 @@ struct AttractorOptions {
   std::size_t most_edges = 3;         ///< sought between starts with different outcomes; 0: none,
                                       ///< and no thresholds
   hybrid::ShootingOptions shooting{.most_events = 2000};
+  /// rad: a start has come to rest when the load stays as near as this to its final position. 0:
+  /// half an encoder step, else 1 % of the gap.
+  double band = 0.0;
   SearchTolerances tolerances{};
   SearchBudget budget{};
   StartTolerances chosen_starts{};  ///< used if `starts` is empty

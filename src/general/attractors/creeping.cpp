@@ -86,13 +86,13 @@ double duration_of(const std::vector<Standstill>& all) {
   return sum;
 }
 
-bool is_creeping(const Watch& watch, const SearchSetting& setting,
-                 const RestTolerances& tolerances) {
-  if (!slips_in_proportion(setting.drive)) return false;
+std::optional<ShrinkingSteps> creeping(const Watch& watch, const SearchSetting& setting,
+                                       const RestTolerances& tolerances) {
+  if (!slips_in_proportion(setting.drive)) return std::nullopt;
   const std::vector<Pause> all =
       held_pauses(watch, setting, tolerances.no_move * setting.small_length);
   constexpr std::size_t least = 3;
-  if (all.size() < least) return false;
+  if (all.size() < least) return std::nullopt;
   const Pause& first = all.end()[-3];
   const Pause& second = all.end()[-2];
   const Pause& third = all.end()[-1];
@@ -102,9 +102,13 @@ bool is_creeping(const Watch& watch, const SearchSetting& setting,
   const bool stays_longer = third.duration() > second.duration() &&
                             second.duration() > first.duration() &&
                             first.duration() > setting.swing_time;
-  return shrinks && stays_longer &&
-         std::abs(limit_of(first.value, second.value, third.value)) <
-             tolerances.vanishing_limit * std::abs(third.value);
+  const bool is_by_one_ratio = std::abs(limit_of(first.value, second.value, third.value)) <
+                               tolerances.vanishing_limit * std::abs(third.value);
+  if (!shrinks || !stays_longer || !is_by_one_ratio) return std::nullopt;
+  return ShrinkingSteps{.size = std::abs(third.value),
+                        .ratio = third.value / second.value,
+                        .duration = third.duration(),
+                        .duration_ratio = third.duration() / second.duration()};
 }
 
 bool is_fading(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,

@@ -2,6 +2,7 @@
 // later, or hardly ever.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "general/attractors/motion_watch.hpp"
@@ -25,16 +26,17 @@ std::vector<Standstill> standstills(const std::vector<Sample>& load,
 /// s, of all together.
 double duration_of(const std::vector<Standstill>& all);
 
-/// Whether the position that is measured stands ever longer, ever nearer to the reference, by one
-/// ratio within the gap, and each time for longer than a swing of the linear loop. If slips are in
+/// The last standstill, if the position that is measured stands ever longer, ever nearer to the
+/// reference, by one ratio within the gap, and each time for longer than a swing of the linear
+/// loop. If slips are in
 /// proportion to the errors before them, all that follow shrink by that ratio (Armstrong-Hélouvry &
 /// Amin 1996; Ruderman, arXiv 2006.08977). They are so if
 ///   dry friction stops the shaft, and has no stiction, by which slips have a size of their own;
 ///   the controller integrates the error, so that nothing else ends a standstill;
 ///   the error is neither rounded by an encoder nor shaped by a dead band or relay.
-/// False where one of these does not hold.
-bool is_creeping(const Watch& watch, const SearchSetting& setting,
-                 const RestTolerances& tolerances);
+/// Empty where one of these does not hold.
+std::optional<ShrinkingSteps> creeping(const Watch& watch, const SearchSetting& setting,
+                                       const RestTolerances& tolerances);
 
 /// Whether small motion with many events fades: the ranges of all numbers shrink from each third of
 /// a stretch to the next, and those of all but the speeds by one ratio, to nothing. So does a shaft

@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 #include <utility>
 
+#include "base/special_numbers.hpp"
 #include "general/attractors/found_cycle.hpp"
 
 namespace gearlash::drive {
+
+using hybrid::State;
+
 namespace {
 
 /// Sums of the swings of a motion's first half and of its last.
@@ -78,18 +83,19 @@ Irregularity irregularity_of(const Watch& watch, const Stretch& stretch,
   IrregularFound& found = result.found;
   // Within the gap the motor may hunt alone while the load stands.
   const double least = tolerances.rest.negligible_swing * setting.small_length;
-  found.is_motor_alone =
-      extremes(of_load, least).size() < enough && extremes(of_motor, least).size() > enough;
+  constexpr double hardly = 0.1;
+  found.is_motor_alone = extremes(of_load, least).size() < enough &&
+                         extremes(of_motor, least).size() > enough &&
+                         extent_of(of_load).width() < hardly * extent_of(of_motor).width();
   const Watched& watched = found.is_motor_alone ? setting.motor : setting.load;
   const std::vector<Sample>& last = found.is_motor_alone ? of_motor : of_load;
   const std::vector<Sample> turns = extremes(last, least);
-  const bool is_in_place = setting.coordinates == Coordinates::in_place;
-  if (!is_in_place && turns.size() < enough) {
+  if (turns.size() < enough) {
     result.reason =
         is_out_of_events ? "as many events as were permitted" : "still on its way at the end";
   } else if (is_small(turns, setting, tolerances.rest) && shrink(turns)) {
     result.reason = "swings shrink at the end, towards what is not certain";
-  } else if (!is_in_place && !is_steady(last, turns, tolerances.irregular)) {
+  } else if (!is_steady(last, turns, tolerances.irregular)) {
     result.reason = "swings still grow or shrink at the end";
   }
   if (!result.reason.empty()) return result;
@@ -109,7 +115,50 @@ Irregularity irregularity_of(const Watch& watch, const Stretch& stretch,
   found.half_swing_deviation = half_swing.deviation;
   found.mismatch = least_mismatch(turns);
   found.swings = turns.empty() ? 0 : turns.size() - 1;
+  found.fastest_decay = fastest_decay(last);
   return result;
+}
+
+double fastest_decay(const std::vector<Sample>& samples) {
+  constexpr double of_range = 0.1;
+  const std::vector<Sample> turns = extremes(samples, of_range * extent_of(samples).width());
+  const std::size_t swings = turns.empty() ? 0 : turns.size() - 1;
+  constexpr std::size_t most_blocks = 20;
+  constexpr std::size_t few_blocks = 4;
+  const std::size_t blocks = swings >= 2 * most_blocks ? most_blocks : few_blocks;
+  const double student = blocks == most_blocks ? 1.734 : 2.920;  // 95 %, 18 or 2 degrees of freedom
+  if (swings < 2 * blocks) return infinity;
+  std::vector<Sample> means;
+  double mean_time = 0.0;
+  double mean_value = 0.0;
+  for (std::size_t i = 0; i < blocks; ++i) {
+    const std::size_t from = i * swings / blocks;
+    const std::size_t to = (i + 1) * swings / blocks;
+    double sum = 0.0;
+    for (std::size_t k = from; k < to; ++k) sum += std::abs(turns[k + 1].value - turns[k].value);
+    means.push_back({0.5 * (turns[from].time + turns[to].time),
+                     std::log(sum / static_cast<double>(to - from))});
+    mean_time += means.back().time / static_cast<double>(blocks);
+    mean_value += means.back().value / static_cast<double>(blocks);
+  }
+  double squares = 0.0;
+  double products = 0.0;
+  for (const Sample& one : means) {
+    squares += (one.time - mean_time) * (one.time - mean_time);
+    products += (one.time - mean_time) * (one.value - mean_value);
+  }
+  const double slope = products / squares;
+  double misfit = 0.0;
+  for (const Sample& one : means) {
+    const double off = one.value - mean_value - slope * (one.time - mean_time);
+    misfit += off * off;
+  }
+  return -slope + student * std::sqrt(misfit / (static_cast<double>(blocks - 2) * squares));
+}
+
+bool excludes_decay(double fastest_decay, double watched) {
+  constexpr double hardly = 0.1;
+  return fastest_decay * watched <= hardly;
 }
 
 bool is_sure(const IrregularFound& found, const IrregularTolerances& tolerances, double repeating) {
@@ -145,14 +194,23 @@ bool is_alike(const IrregularFound& one, const IrregularFound& other, const Sear
                one.is_motor_alone ? tolerances.same_ranges : share);
 }
 
+/// The drive's own numbers. In place positions go along with the reference.
 bool are_alike(const std::vector<Extent>& ranges, const std::vector<Extent>& others,
-               Eigen::Index count, double share) {
+               const SearchSetting& setting, double share) {
   if (ranges.empty() || others.empty()) return false;
+  const StateIndices& at = setting.built.at;
+  const auto goes_along = [&](std::size_t i) {
+    const auto number = static_cast<Eigen::Index>(i);
+    return setting.coordinates == Coordinates::in_place &&
+           (number == motor_position || number == load_position || number == at.encoder ||
+            number == at.last_reading);
+  };
   const auto width_of = [&](std::size_t i) {
     return std::max(ranges[i].width(), others[i].width());
   };
   constexpr double rounding = 1e-9;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(setting.own); ++i) {
+    if (goes_along(i)) continue;
     double width = width_of(i);
     for (const auto& [one, other] :
          {std::pair{motor_position, load_position}, std::pair{motor_speed, load_speed}}) {
@@ -176,8 +234,54 @@ bool are_alike(const std::vector<Extent>& ranges, const std::vector<Extent>& oth
 
 bool is_same(const SteadyMotion& one, const SteadyMotion& other, const SearchSetting& setting,
              const IrregularTolerances& tolerances) {
-  return is_alike(one.found, other.found, setting, tolerances) &&
-         are_alike(one.ranges, other.ranges, setting.own, tolerances.same_ranges);
+  const double extent = std::max(other.found.amplitude, other.found.motor_amplitude);
+  const bool is_centered =
+      setting.coordinates != Coordinates::in_place ||
+      agree(one.found.center, other.found.center, extent, tolerances.same_ranges);
+  return is_centered && is_alike(one.found, other.found, setting, tolerances) &&
+         are_alike(one.ranges, other.ranges, setting, tolerances.same_ranges);
+}
+
+namespace {
+
+/// s, of the longest sine that drives it.
+double longest_period(const ReducedDrive& drive) {
+  double longest = 0.0;
+  for (const Signal* signal : {&drive.reference, &drive.load_torque}) {
+    const auto* sine = std::get_if<Sine>(signal);
+    if (sine != nullptr) longest = std::max(longest, 2.0 * std::numbers::pi / sine->frequency);
+  }
+  return longest;
+}
+
+/// Whether an integral of the error of a drive that stands goes to and fro: its mean is that of a
+/// reading at the reference's middle.
+bool integrates_nothing(const SearchSetting& setting, const State& here) {
+  if (!integrates(setting.drive.controller)) return true;
+  const Sensing& sensing = setting.drive.sensing;
+  const double share = sensing.load_share_of_position;
+  const double middle = middle_of(setting.drive.reference);
+  const double sensed = middle + share * setting.load.value.at(here.numbers) +
+                        (1.0 - share) * setting.motor.value.at(here.numbers);
+  const double step = sensing.resolution;
+  const double reading = step > 0.0 ? step * std::round(sensed / step) : sensed;
+  constexpr double rounding = 1e-9;
+  return std::abs(reading - middle) <= rounding * setting.small_length;
+}
+
+}  // namespace
+
+bool stands_while_driven(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
+                         const SearchTolerances& tolerances) {
+  constexpr double enough = 3.0;
+  const double period = longest_period(setting.drive);
+  if (period == 0.0 || stretch.to - stretch.from < enough * period) return false;
+  const double no_move = tolerances.rest.no_move * setting.small_length;
+  const auto stands = [&](const std::vector<Sample>& samples) {
+    return extent_of(after(samples, stretch.from)).width() <= no_move;
+  };
+  return stands(watch.load) && stands(watch.motor) && integrates_nothing(setting, watch.here) &&
+         are_alike(stretch.last, watch.before, setting, tolerances.irregular.steady_statistics);
 }
 
 std::size_t place_among(const std::vector<IrregularFound>& known, const IrregularFound& found,
@@ -187,11 +291,18 @@ std::size_t place_among(const std::vector<IrregularFound>& known, const Irregula
   const auto same = std::find_if(known.begin(), known.end(), [&](const IrregularFound& one) {
     // If the motor hunts alone, the load may stand anywhere.
     const bool is_centered = found.is_motor_alone || agree(one.center, found.center, extent, share);
+    // Its mean swings are better known than its extremes, which are larger the longer it is
+    // watched.
+    const double close = tolerances.steady_statistics;
+    const bool has_same_means = agree(one.half_swing, found.half_swing, found.half_swing, close) &&
+                                agree(one.period, found.period, found.period, close);
+    const bool has_same_extremes =
+        agree(one.amplitude, found.amplitude, extent, share) &&
+        (found.is_motor_alone ||
+         agree(one.motor_amplitude, found.motor_amplitude, extent, share)) &&
+        agree(one.half_swing, found.half_swing, extent, share);
     return one.is_motor_alone == found.is_motor_alone && is_centered &&
-           agree(one.amplitude, found.amplitude, extent, share) &&
-           (found.is_motor_alone ||
-            agree(one.motor_amplitude, found.motor_amplitude, extent, share)) &&
-           agree(one.half_swing, found.half_swing, extent, share);
+           (has_same_means || has_same_extremes);
   });
   return static_cast<std::size_t>(same - known.begin());
 }

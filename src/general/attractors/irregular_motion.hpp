@@ -22,6 +22,15 @@ Irregularity irregularity_of(const Watch& watch, const Stretch& stretch,
 /// the share `repeating`. A few others may be those of a motion that comes to rest.
 bool is_sure(const IrregularFound& found, const IrregularTolerances& tolerances, double repeating);
 
+/// 1/s, the fastest decay of the swings between samples that is not excluded at 95 %: the slope of
+/// ln(mean swing) of up to 20 blocks of them against time, by least squares, with Student's t.
+/// Swings below a tenth of the whole range do not count. Infinite of fewer than 8 swings; negative
+/// if they surely grow.
+double fastest_decay(const std::vector<Sample>& samples);
+
+/// Whether that rate is less than a tenth of the reciprocal of the time of the measurement.
+bool excludes_decay(double fastest_decay, double watched);
+
 /// A stretch of a motion that is steady.
 struct SteadyMotion {
   IrregularFound found;
@@ -35,6 +44,12 @@ struct SteadyMotion {
 /// of its motor changes little.
 bool is_same(const SteadyMotion& one, const SteadyMotion& other, const SearchSetting& setting,
              const IrregularTolerances& tolerances);
+
+/// Whether both shafts stand under a sine, which moves the controller's numbers alone: over three
+/// periods at least, in which these cover the ranges of the stretch before, and nothing but the
+/// sine is integrated.
+bool stands_while_driven(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
+                         const SearchTolerances& tolerances);
 
 /// Index of a known one that is nearly the same; their count if there is none.
 std::size_t place_among(const std::vector<IrregularFound>& known, const IrregularFound& found,

@@ -157,6 +157,7 @@ double busy_time(const std::vector<Sample>& load, const std::vector<Sample>& mot
 Stretch follow(Watch& watch, double until, std::size_t step_limit, std::size_t event_limit,
                const SearchSetting& setting, const SearchBudget& budget) {
   Stretch stretch{.from = watch.time};
+  watch.marks.push_back({watch.time, watch.here});
   stretch.motion = simulate(
       setting.system, watch.here,
       {.from = watch.time, .until = until, .event_limit = event_limit, .step_limit = step_limit});
@@ -184,6 +185,7 @@ Stretch follow(Watch& watch, double until, std::size_t step_limit, std::size_t e
 
 Stretch observe(Watch& watch, double until, std::size_t event_limit, const SearchSetting& setting) {
   Stretch stretch{.from = watch.time};
+  watch.marks.push_back({watch.time, watch.here});
   StretchObserver observer(watch, until, setting);
   hybrid::Observed seen =
       observe(setting.system, watch.here,
@@ -273,6 +275,16 @@ bool is_at_rest(const Watch& watch, const Stretch& stretch, const SearchSetting&
          hardly_changes(watch, setting, tolerances, [&](std::size_t i) { return last[i].width(); });
 }
 
+bool moves_along(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
+                 const RestTolerances& tolerances) {
+  const auto hardly_moves = [&](const std::vector<Sample>& samples) {
+    const double all = std::max(extent_of(samples).width(), setting.small_length);
+    return extent_of(after(samples, stretch.from)).width() <= tolerances.still * all;
+  };
+  return setting.coordinates == Coordinates::in_place && hardly_moves(watch.load) &&
+         hardly_moves(watch.motor);
+}
+
 namespace {
 
 bool has_stiction(const Shaft& shaft) { return shaft.friction.breakaway > shaft.friction.coulomb; }
@@ -312,7 +324,6 @@ bool grows_away(const Watch& watch, const SearchSetting& setting,
 
 bool has_run_away(const Watch& watch, const SearchSetting& setting,
                   const SearchTolerances& tolerances) {
-  if (setting.coordinates == Coordinates::in_place) return false;
   return std::abs(setting.load.value.at(watch.here.numbers)) > far_away(setting, tolerances) ||
          grows_away(watch, setting, tolerances);
 }
@@ -370,27 +381,82 @@ double limit_of(double first, double second, double third) {
   return third - last_step * last_step / (last_step - (second - first));
 }
 
-std::optional<double> ratio_of_vanishing(const std::vector<Sample>& turns,
-                                         const SearchSetting& setting,
-                                         const RestTolerances& tolerances) {
-  if (!is_small(turns, setting, tolerances)) return std::nullopt;
+namespace {
+
+/// With the last swing and its ratio to the one before, and both durations.
+ShrinkingSteps last_steps(const std::vector<Sample>& turns) {
+  const Sample* last = &turns.back();
+  const double before = (last - 1)->time - (last - 2)->time;
+  const double duration = last->time - (last - 1)->time;
+  return {.final = 0.5 * (last->value + (last - 1)->value),
+          .size = 0.5 * swing(turns, 0),
+          .ratio = swing(turns, 0) / swing(turns, 1),
+          .duration = duration,
+          .duration_ratio = duration / before};
+}
+
+/// By one ratio: Aitken's extrapolation of any three gives 0.
+bool shrink_by_one_ratio(const std::vector<Sample>& turns, const RestTolerances& tolerances) {
   for (std::size_t count = 2; count < turns.size(); ++count) {
     const double first = swing(turns, count - 1);
     const double second = swing(turns, count - 2);
-    if (!(second < first)) return std::nullopt;
+    if (!(second < first)) return false;
     if (count > 2) {
       const double third = swing(turns, count - 3);
       const double limit = limit_of(first, second, third);
       if (!(third < second) || !(std::abs(limit) < tolerances.vanishing_limit * third)) {
-        return std::nullopt;
+        return false;
       }
     }
     if (count >= tolerances.vanishing_swings ||
         swing(turns, 0) < tolerances.vanishing_fast * first) {
-      return swing(turns, 0) / swing(turns, 1);
+      return true;
     }
   }
-  return std::nullopt;
+  return false;
+}
+
+/// By ratios that scatter, as the ticks of a clock fall: each below 1, and their mean logarithm
+/// below 0 by a multiple of its standard error.
+bool shrink_on_average(const std::vector<Sample>& turns, const RestTolerances& tolerances) {
+  const std::size_t count = tolerances.scattering_swings;
+  if (turns.size() < count + 2) return false;
+  std::vector<double> logarithms;
+  for (std::size_t i = 0; i < count; ++i) {
+    logarithms.push_back(std::log(swing(turns, i) / swing(turns, i + 1)));
+    if (!(logarithms.back() < 0.0)) return false;
+  }
+  const Spread spread = spread_of(logarithms);
+  return spread.mean + tolerances.scattering_errors * spread.deviation /
+                           std::sqrt(static_cast<double>(count)) <
+         0.0;
+}
+
+/// Whether small motion has no size but its own: nothing but the gap, which it does not fill, tells
+/// a swing from one half as large.
+bool has_no_small_size(const ReducedDrive& drive) {
+  const auto* torque = std::get_if<double>(&drive.load_torque);
+  const bool is_pushed = torque == nullptr || *torque != 0.0;
+  const bool is_read = drive.sensing.resolution > 0.0 || drive.sensing.resolution_of_speed > 0.0;
+  return !drive.motor.friction.is_dry() && !drive.load.friction.is_dry() && !is_read &&
+         !drive.error_shape.is_present() && !is_pushed &&
+         std::holds_alternative<double>(drive.reference);
+}
+
+}  // namespace
+
+std::optional<ShrinkingSteps> vanishing_swings(const std::vector<Sample>& turns,
+                                               const SearchSetting& setting,
+                                               const RestTolerances& tolerances) {
+  if (!has_no_small_size(setting.drive) || !is_small(turns, setting, tolerances)) {
+    return std::nullopt;
+  }
+  const bool is_clocked = setting.drive.sampling.has_value();
+  if (!shrink_by_one_ratio(turns, tolerances) &&
+      !(is_clocked && shrink_on_average(turns, tolerances))) {
+    return std::nullopt;
+  }
+  return last_steps(turns);
 }
 
 }  // namespace gearlash::drive

@@ -9,6 +9,22 @@
 
 namespace gearlash::drive {
 
+/// A state of a motion.
+struct Mark {
+  double time = 0.0;
+  hybrid::State here;
+};
+
+/// Steps towards rest that shrink by one ratio, each of another duration by one ratio: swings that
+/// vanish, slips of a drive that creeps.
+struct ShrinkingSteps {
+  double final = 0.0;           ///< rad, from the reference: where they end
+  double size = 0.0;            ///< rad, of the last: its distance from there
+  double ratio = 0.0;           ///< of two successive sizes, below 1
+  double duration = 0.0;        ///< s, of the last
+  double duration_ratio = 1.0;  ///< of two successive durations
+};
+
 struct Watch {
   hybrid::State here;
   double time = 0.0;
@@ -17,6 +33,8 @@ struct Watch {
   std::vector<Extent> all{};  ///< of each number
   std::vector<Sample> load{};
   std::vector<Sample> motor{};
+  std::vector<Mark> marks{};     ///< the start of each stretch
+  std::vector<Extent> before{};  ///< of each number in the last half of the stretch before
   bool starts_at_rest = false;
 };
 
@@ -55,13 +73,17 @@ bool is_endless(const Stretch& stretch);
 bool is_at_rest(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
                 const RestTolerances& tolerances);
 
+/// Whether, in place, both shafts moved along with the reference during a stretch, to that share of
+/// their movement.
+bool moves_along(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
+                 const RestTolerances& tolerances);
+
 /// Whether friction at rest is higher than that of motion, on either shaft.
 bool has_stiction(const ReducedDrive& drive);
 
 /// Whether the load is far beyond all lengths of the drive, those of a torque limit however many
 /// backlashes they are; or swings that grow are, each by no less than the one before: under a
-/// torque limit a motion runs away no faster than that. Not decided in place, where the reference
-/// moves.
+/// torque limit a motion runs away no faster than that.
 bool has_run_away(const Watch& watch, const SearchSetting& setting,
                   const SearchTolerances& tolerances);
 
@@ -88,10 +110,12 @@ std::vector<Sample> turns_of(const Watch& watch, const SearchSetting& setting,
 /// The limit of three numbers that approach it by one ratio (Aitken).
 double limit_of(double first, double second, double third);
 
-/// Ratio of the last two swings, if small swings vanish by their law: Aitken's extrapolation of any
-/// three gives 0. Needs many swings, or a few that shrink fast. Empty otherwise.
-std::optional<double> ratio_of_vanishing(const std::vector<Sample>& turns,
-                                         const SearchSetting& setting,
-                                         const RestTolerances& tolerances);
+/// The last of small swings that vanish. In a drive without dry friction, encoder, shaped error and
+/// constant torque small motion is the same at any size; so if swings shrink by one ratio (Aitken's
+/// extrapolation of any three gives 0), or in a sampled drive by ratios that scatter below 1, they
+/// go on. Needs many swings, or a few that shrink fast. Empty otherwise.
+std::optional<ShrinkingSteps> vanishing_swings(const std::vector<Sample>& turns,
+                                               const SearchSetting& setting,
+                                               const RestTolerances& tolerances);
 
 }  // namespace gearlash::drive

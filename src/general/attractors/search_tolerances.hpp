@@ -26,6 +26,10 @@ struct RestTolerances {
   std::size_t vanishing_swings = 7;
   /// ... or fewer, where the last is below this share of the first.
   double vanishing_fast = 0.1;
+  /// Swings whose ratios scatter vanish if this many ratios are below 1, and the mean of their
+  /// logarithms below 0 by this many standard errors.
+  std::size_t scattering_swings = 12;
+  double scattering_errors = 3.0;
   /// Motion fades if its ranges shrink below this share within a stretch, with this many events in
   /// the last third.
   double fading = 0.5;

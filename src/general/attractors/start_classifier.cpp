@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 #include <utility>
 
 #include "general/attractors/found_cycle.hpp"
 #include "general/attractors/motion_measures.hpp"
+#include "general/attractors/time_to_rest.hpp"
 #include "hybrid/limit_in_mode.hpp"
 
 namespace gearlash::drive {
@@ -22,6 +25,19 @@ std::size_t steps_kept(const SearchSetting& setting, const SearchBudget& budget)
 
 Verdict StartClassifier::end_of(const State& start, double patience, double longer) {
   Watch watch{.here = start, .starts_at_rest = setting_.load.speed.at(start.numbers) == 0.0};
+  Verdict verdict = watched(watch, patience, longer);
+  if (!is_disturbed_) last_ = std::move(watch);
+  return verdict;
+}
+
+std::optional<double> StartClassifier::time_to_rest(const Verdict& verdict, double band) const {
+  const double final = verdict.approach ? verdict.approach->final : verdict.rest.back().load;
+  const double later = verdict.approach ? time_until_within(band, *verdict.approach) : 0.0;
+  if (later > 0.0) return last_.time + later;
+  return last_time_outside(band, final, last_, setting_, steps_kept(setting_, budget_));
+}
+
+Verdict StartClassifier::watched(Watch& watch, double patience, double longer) {
   const double no_move = tolerances_.rest.no_move * setting_.small_length;
   bool is_costly = setting_.drive.sampling || is_driven(setting_.drive);
   double length = first_stretch();
@@ -51,6 +67,7 @@ Verdict StartClassifier::end_of(const State& start, double patience, double long
       give_up(watch, stretch, before, verdict);
       return verdict;
     }
+    watch.before = stretch.last;
     // Events may have ended the stretch.
     length = 2.0 * (stretch.to - stretch.from);
     most_in_stretch = std::max(budget_.ticks_of_stretch, 2 * stretch.events);
@@ -93,7 +110,9 @@ double StartClassifier::longest(const Watch& watch, const Stretch& stretch, doub
   const bool hardly_moves =
       setting_.drive.sampling ||
       std::max(recent(turns), recent(extremes(watch.motor))) < budget_.hardly_any_swings;
-  const bool is_slow = hardly_moves || is_small(turns, setting_, tolerances_.rest) || changes;
+  const bool is_slow =
+      hardly_moves || is_small(turns, setting_, tolerances_.rest) || changes ||
+      !excludes_decay(fastest_decay(after(watch.load, stretch.from)), stretch.to - stretch.from);
   constexpr double rounding = 1e-9;  // allows for rounding of the summed stretches
   const double more = is_slow ? patience : 1.0;
   const double times = setting_.drive.sampling ? more * budget_.patience_if_sampled : more;
@@ -110,9 +129,10 @@ bool StartClassifier::is_decided(const Watch& watch, const Stretch& stretch, Ver
   if (may_rest && settles(watch, stretch, verdict)) return true;
   const bool goes_on = !is_endless(stretch);
   const bool rests = is_at_rest(watch, stretch, setting_, rest) ||
+                     stands_while_driven(watch, stretch, setting_, tolerances_) ||
                      (goes_on && (is_vanishing(watch, stretch, verdict) ||
                                   (stretch.motion && is_fading(watch, stretch, setting_, rest))));
-  if (may_rest && rests) {
+  if (may_rest ? rests : moves_along(watch, stretch, setting_, rest)) {
     rest_at(watch.here.numbers, verdict);
     return true;
   }
@@ -129,23 +149,58 @@ void StartClassifier::rest_at(const hybrid::Vector& numbers, Verdict& verdict) c
       {.load = setting_.load.value.at(numbers), .motor = setting_.motor.value.at(numbers)}};
 }
 
-bool StartClassifier::settles(const Watch& watch, const Stretch& stretch, Verdict& verdict) const {
-  const auto settles_from = [&](const State& state) {
+bool StartClassifier::settles(const Watch& watch, const Stretch& stretch, Verdict& verdict) {
+  const double no_move = tolerances_.rest.no_move * setting_.small_length;
+  const auto settles_from = [&](State state) {
+    // What rounding leaves between a shaft and the reference would be integrated for ages.
+    for (const Watched* shaft : {&setting_.load, &setting_.motor}) {
+      const Eigen::Index position = shaft == &setting_.load ? load_position : motor_position;
+      if (std::abs(shaft->value.at(state.numbers)) < no_move) state.numbers[position] = 0.0;
+    }
     const hybrid::AffineMode& mode = setting_.system.system().mode(state.mode);
     const auto limit = hybrid::limit_in_mode(mode, state.numbers);
-    if (limit) rest_at(*limit, verdict);
-    return limit.has_value();
+    const auto drifts = [&](const Watched& shaft) {
+      return shaft.value.normal.dot(limit->drift) != 0.0;
+    };
+    if (!limit || drifts(setting_.load) || drifts(setting_.motor)) return false;
+    rest_at(limit->numbers, verdict);
+    if (limit->is_on_border) verdict = disturbed({state.mode, limit->numbers}, verdict);
+    return true;
   };
   if (settles_from(watch.here)) return true;
   const auto quiet = stretch.motion ? longest_move(*stretch.motion, setting_) : std::nullopt;
   return quiet && settles_from(stretch.motion->at(*quiet));
 }
 
+Verdict StartClassifier::disturbed(const State& rest, const Verdict& undisturbed) {
+  const bool is_held =
+      setting_.drive.motor.friction.is_dry() || setting_.drive.load.friction.is_dry();
+  if (is_held || is_disturbed_) return undisturbed;
+  const auto known = ends_of_disturbed_.find(rest.mode);
+  if (known != ends_of_disturbed_.end()) return known->second;
+  is_disturbed_ = true;
+  Verdict end = undisturbed;
+  for (const double side : {1.0, -1.0}) {
+    State start = rest;
+    for (const Eigen::Index position : {motor_position, load_position}) {
+      start.numbers[position] += side * options_.chosen_starts.least_step * setting_.small_length /
+                                 setting_.frame.scale[position];
+    }
+    Verdict next = end_of(start, budget_.patience);
+    if (next.end == MotionEnd::rest) continue;
+    end = std::move(next);
+    break;
+  }
+  is_disturbed_ = false;
+  return ends_of_disturbed_.emplace(rest.mode, std::move(end)).first->second;
+}
+
 bool StartClassifier::creeps(const std::vector<Standstill>& stood, const Watch& watch, bool is_long,
                              Verdict& verdict) const {
   const RestTolerances& rest = tolerances_.rest;
-  verdict.is_creeping = is_creeping(watch, setting_, rest) ||
-                        (is_long && stands_for_long(stood, watch, setting_, rest));
+  verdict.approach = creeping(watch, setting_, rest);
+  verdict.is_creeping =
+      verdict.approach || (is_long && stands_for_long(stood, watch, setting_, rest));
   if (!verdict.is_creeping) return false;
   rest_at(watch.here.numbers, verdict);
   return true;
@@ -180,7 +235,10 @@ bool StartClassifier::is_steady(const Watch& watch, const Stretch& stretch,
   }
   const bool is_repeated = before && is_same(*before, now, setting_, irregular);
   before = now;
-  if (!is_repeated || !is_sure(now.found, irregular, irregular.repeating_exactly)) return false;
+  if (!is_repeated || !is_sure(now.found, irregular, irregular.repeating_exactly) ||
+      !excludes_decay(now.found.fastest_decay, now.found.watched)) {
+    return false;
+  }
   if (!closes(watch, stretch, now.found, verdict)) take(watch, now.found, verdict, &stretch);
   known_.push_back({now, verdict.end, verdict.which});
   return true;
@@ -212,17 +270,15 @@ Trajectory StartClassifier::recorded(const Watch& watch, const IrregularFound& f
 
 bool StartClassifier::is_vanishing(const Watch& watch, const Stretch& stretch,
                                    Verdict& verdict) const {
-  // Dry friction brings a drive to rest.
-  if (setting_.drive.motor.friction.is_dry() || setting_.drive.load.friction.is_dry()) return false;
   const bool is_small_by_now = extent_of(after(watch.load, stretch.from)).width() <
                                tolerances_.rest.small_motion * setting_.small_length;
   const double awaited =
       std::min(search_.watch_time, budget_.settling_times * setting_.settling_time);
   if (!is_small_by_now || !(watch.time > awaited)) return false;
-  const auto ratio =
-      ratio_of_vanishing(turns_of(watch, setting_, tolerances_.rest), setting_, tolerances_.rest);
-  if (ratio) verdict.swing_ratio = *ratio;
-  return ratio.has_value();
+  verdict.approach =
+      vanishing_swings(turns_of(watch, setting_, tolerances_.rest), setting_, tolerances_.rest);
+  if (verdict.approach) verdict.swing_ratio = verdict.approach->ratio;
+  return verdict.approach.has_value();
 }
 
 bool StartClassifier::is_on_cycle(const Trajectory& motion,
@@ -266,6 +322,13 @@ void StartClassifier::give_up(const Watch& watch, const Stretch& stretch,
     return;
   }
   const SteadyMotion last = seen.reason.empty() ? SteadyMotion{seen.found, stretch.last} : *before;
+  if (!excludes_decay(last.found.fastest_decay, last.found.watched)) {
+    std::ostringstream reason;
+    reason << std::setprecision(2) << "after " << watch.time
+           << " s swings may still decay by up to " << last.found.fastest_decay << "/s";
+    verdict.reason = reason.str();
+    return;
+  }
   take(watch, last.found, verdict, &stretch);
   known_.push_back({last, verdict.end, 0});
 }

@@ -4,6 +4,7 @@
 #include <functional>
 #include <initializer_list>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,9 +24,11 @@ struct Verdict {
   double watched = 0.0;
   std::string reason;
   double swing_ratio = std::numeric_limits<double>::quiet_NaN();
-  std::vector<Standstill> rest;  ///< where, if `end` is rest
-  bool is_creeping = false;      ///< to rest, or there
-  IrregularFound irregular;      ///< if `end` is irregular
+  std::vector<Standstill> rest;            ///< where, if `end` is rest
+  std::optional<ShrinkingSteps> approach;  ///< by which it is never quite reached
+  std::optional<double> time_to_rest;      ///< s, if it was asked for
+  bool is_creeping = false;                ///< to rest, or there
+  IrregularFound irregular;                ///< if `end` is irregular
 
   bool is_attracted() const { return end == MotionEnd::rest || end == MotionEnd::cycle; }
   bool is_same_end(const Verdict& other) const {
@@ -52,7 +55,13 @@ class StartClassifier {
   /// is watched `longer` times as long; above 1, statistics that repeat are not its end.
   Verdict end_of(const hybrid::State& start, double patience, double longer = 1.0);
 
+  /// s: the last time at which the load was farther than `band`, rad, from its final position, of
+  /// the start that was watched last. `verdict`: its end, rest. By its law where the approach has
+  /// one. Empty where the motion does not show it.
+  std::optional<double> time_to_rest(const Verdict& verdict, double band) const;
+
  private:
+  Verdict watched(Watch& watch, double patience, double longer);
   /// What a start led to.
   struct Known {
     SteadyMotion motion;
@@ -73,7 +82,10 @@ class StartClassifier {
   void rest_at(const hybrid::Vector& numbers, Verdict& verdict) const;
   /// Whether the motion comes to rest without another event, which may take for ever; or would have
   /// done so from the middle of its longest move on: events after that are rounding.
-  bool settles(const Watch& watch, const Stretch& stretch, Verdict& verdict) const;
+  bool settles(const Watch& watch, const Stretch& stretch, Verdict& verdict);
+  /// What small disturbances of a rest on the border of its mode lead to, if no dry friction holds
+  /// it: `undisturbed`, if to rest.
+  Verdict disturbed(const hybrid::State& rest, const Verdict& undisturbed);
   /// Whether standstills follow the law of creeping, or the last one has lasted after a long watch.
   bool creeps(const std::vector<Standstill>& stood, const Watch& watch, bool is_long,
               Verdict& verdict) const;
@@ -113,6 +125,9 @@ class StartClassifier {
   std::function<bool()> goes_on_;
   CycleClosing closing_{setting_, options_};
   std::vector<Known> known_;
+  Watch last_;                                        ///< of the last start
+  bool is_disturbed_ = false;                         ///< the start that is watched
+  std::map<std::size_t, Verdict> ends_of_disturbed_;  ///< by the mode of the rest
 };
 
 }  // namespace gearlash::drive
