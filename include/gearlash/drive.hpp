@@ -150,6 +150,8 @@ struct Sensor {
   std::optional<ShaftName> speed{};  ///< the position's shaft if not given; the motor with `both`
   Encoder encoder{};                 ///< of the position
   Encoder speed_encoder{};  ///< its differences are the speed; `encoder` if on the same shaft
+  /// The position's place is not given but assumed: of a joint in the words of robots' simulators.
+  bool is_assumed = false;
 
   bool operator==(const Sensor&) const = default;
 };

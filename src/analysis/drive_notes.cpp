@@ -42,6 +42,12 @@ std::vector<Note> notes_on(const Drive& drive) {
   std::vector<Note> notes;
   if (drive.servo) return notes;
   const Motor& motor = drive.motor;
+  if (drive.sensor.is_assumed) {
+    notes.push_back(
+        {"assumed-encoder",
+         "The encoder is assumed on the load; sensor.position = \"motor\" puts it on the "
+         "motor."});
+  }
   if (drive.controller.firmware) notes.push_back({"firmware", text_on_firmware(drive)});
   if (motor.no_load_current && takes_no_load_current(motor)) {
     notes.push_back({"no-load-current", "The motor's dry friction is " +

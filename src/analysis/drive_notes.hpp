@@ -8,7 +8,8 @@
 
 namespace gearlash {
 
-/// Codes: "no-load-current" (the dry friction that it gives), "efficiency" (left out), "gravity"
+/// Codes: "assumed-encoder" (where it is taken to be), "firmware" (the gains that its registers
+/// mean), "no-load-current" (the dry friction that it gives), "efficiency" (left out), "gravity"
 /// (its torque and stiffness where the reference ends). Precondition: a sound drive.
 std::vector<Note> notes_on(const Drive& drive);
 

@@ -14,18 +14,33 @@ namespace {
 
 constexpr std::string_view nothing = "none";
 
+/// Whether a file of any form has a section of this name: "sampling", "actuator".
 bool is_section(std::string_view name) {
-  const std::vector<Section>& sections = all_sections();
-  return std::any_of(sections.begin(), sections.end(),
-                     [&](const Section& section) { return section.name == name; });
+  const auto is_in_it = [&](std::string_view path) {
+    return path.substr(0, path.find('.')) == name;
+  };
+  const std::vector<Parameter>& all = all_parameters_of_drives();
+  return std::any_of(all.begin(), all.end(), [&](const Parameter& parameter) {
+    return is_in_it(parameter.path) ||
+           std::any_of(parameter.other_forms.begin(), parameter.other_forms.end(),
+                       [&](const OtherForm& form) { return is_in_it(form.path); });
+  });
 }
 
-/// Removes a section, or a key under any of its names.
-void take_out(TomlDocument& document, const std::string& path) {
-  if (is_section(path)) return document.remove_section(path);
-  const Parameter& parameter = *find_parameter(path);
+/// Removes a key under any of its names.
+void take_out(TomlDocument& document, const Parameter& parameter) {
   document.remove(parameter.path);
   for (const OtherForm& form : parameter.other_forms) document.remove(form.path);
+}
+
+/// Removes a section with its keys under any of their names ("actuator.timestep" is of [sampling]),
+/// or a key.
+void take_out(TomlDocument& document, const std::string& path) {
+  if (!is_section(path)) return take_out(document, *find_parameter(path));
+  document.remove_section(path);
+  for (const Parameter& parameter : all_parameters_of_drives()) {
+    if (parameter.section() == path) take_out(document, parameter);
+  }
 }
 
 /// Why no drive has the path of a setting, with the nearest known one; empty if one has.

@@ -24,6 +24,7 @@ bool is_required_of_robots(const Parameter& parameter, std::string_view section)
 
 Drive robots_joint(bool has_derivative, bool is_sampled) {
   Drive drive;
+  drive.sensor.is_assumed = true;
   drive.controller.shaft = GainShaft::load;
   drive.controller.law = PID{.terms = has_derivative ? PIDTerms::PD : PIDTerms::P};
   if (is_sampled) drive.sampling = Sampling{.speed_by_differences = false};

@@ -20,7 +20,8 @@ bool has_robots_form(const Parameter& parameter);
 bool is_required_of_robots(const Parameter& parameter, std::string_view section);
 
 /// A joint before its numbers are read: with a derivative, and with a computer, if the file gives
-/// their numbers. MuJoCo's computer reads exact speeds.
+/// their numbers. MuJoCo's computer reads exact speeds. The encoder's place is assumed: its
+/// simulator knows no gap.
 Drive robots_joint(bool has_derivative, bool is_sampled);
 
 }  // namespace gearlash

@@ -24,6 +24,7 @@ std::vector<Parameter> sensor_parameters() {
                  [](const Drive& drive) { return static_cast<std::size_t>(drive.sensor.position); },
                  [](Drive& drive, std::size_t choice) {
                    drive.sensor.position = static_cast<SensorPlace>(choice);
+                   drive.sensor.is_assumed = false;
                  }}};
            },
        .meaning = "shaft with the position sensor; both: position of the load, speed of the motor",
