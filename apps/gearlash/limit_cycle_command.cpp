@@ -170,7 +170,7 @@ Work analysed(const WrittenDrive& written, const Limits& limits, const Provenanc
     TerminalProgress progress("Searching");
     progress.stop_after(limits.seconds);
     progress.stop_above(limits.bytes);
-    Wanted wanted{.ceiling = true};
+    Wanted wanted{.ceiling = true, .quantization = true};
     // A third for a motion, what is made of it included, beside the tool itself.
     const double for_motion = (limits.bytes - tool_bytes) / 3.0;
     if (for_motion < static_cast<double>(wanted.motion_bytes)) {

@@ -24,6 +24,8 @@ struct Wanted {
   /// What lies between starts that end differently: unstable cycles, and from which step on a drive
   /// hunts (Answer::thresholds). The verdict does not need it.
   bool borders = true;
+  /// Answer::is_quantization: a second search where a drive hunts by a few encoder steps.
+  bool quantization = false;
   /// Bytes that a search keeps of a motion at most, but for its last thousand steps. It takes some
   /// two to three times as many in all.
   std::size_t motion_bytes = 64'000'000;

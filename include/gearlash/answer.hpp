@@ -148,7 +148,7 @@ struct IrregularMotion {
   std::optional<double> encoder_steps{};  ///< as of a cycle
 };
 
-/// Hunting of at most this many encoder steps, peak to peak, is called quantization.
+/// Hunting of at most this many encoder steps, peak to peak, may be quantization.
 inline constexpr double steps_of_quantization = 4.0;
 
 /// Where a start of a search led.
@@ -315,6 +315,10 @@ struct Answer {
   std::vector<Cycle> cycles{};  ///< by falling amplitude; from a search, stable ones first
   std::optional<Rest> rest{};   ///< empty if it is not known to rest
   std::vector<IrregularMotion> irregular{};  ///< on which no cycle was closed
+  /// Whether hunting of at most `steps_of_quantization` is quantization: without the encoder's
+  /// steps the starts that hunt, of which up to three are followed, come to rest. Empty if not
+  /// wanted, not decided, or for other motion.
+  std::optional<bool> is_quantization{};
   /// Of a search beside which the drive also rests, or stays bounded: on the grid of its steps, and
   /// then bisected. A step between those of the grid may lead elsewhere.
   std::vector<Threshold> thresholds{};

@@ -16,8 +16,8 @@ Progress = Optional[Callable[[float], Optional[bool]]]
 
 
 def analyse(drive: Drive, *, proofs: bool = True, ceiling: bool = True, loop: bool = False,
-            step: float | None = None, borders: bool = True, motion_bytes: int | None = None,
-            progress: Progress = None) -> Answer:
+            step: float | None = None, borders: bool = True, quantization: bool = True,
+            motion_bytes: int | None = None, progress: Progress = None) -> Answer:
     """Report whether a drive hunts, how large and fast, and how certain that is.
 
     The closed form answers for the servo of 1960 and every drive that is one by its physics, in
@@ -37,6 +37,8 @@ def analyse(drive: Drive, *, proofs: bool = True, ceiling: bool = True, loop: bo
     borders : bool
         Search what lies between starts that end differently: unstable cycles, and from which step
         on a drive hunts.
+    quantization : bool
+        Where a drive hunts by a few encoder steps, search once more without the encoder's steps.
     motion_bytes : int, optional
         That a search keeps of a motion at most, but for its last thousand steps; default 64,000,000.
         It takes two to three times as many in all.
@@ -70,7 +72,8 @@ def analyse(drive: Drive, *, proofs: bool = True, ceiling: bool = True, loop: bo
     (0.241611108, 6.456205)
     """
     wanted = Wanted(proofs=proofs, ceiling=ceiling, loop=loop, step=optional_number("step", step),
-                    borders=borders, **where_given(motion_bytes=motion_bytes))
+                    borders=borders, quantization=quantization,
+                    **where_given(motion_bytes=motion_bytes))
     return dataclasses.replace(_core.analyse(drive, wanted, progress), drive=drive)
 
 

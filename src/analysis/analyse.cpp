@@ -397,8 +397,63 @@ namespace {
 
 using IsEnough = std::function<bool(const drive::AttractorSearch&)>;
 
-Analysis analysed(const Drive& drive, const Analysis* near, const Wanted& wanted,
-                  Progress& progress, const IsEnough& is_enough = {}) {
+/// How a search is made.
+struct Way {
+  const Analysis* near = nullptr;            ///< to be followed
+  IsEnough is_enough{};                      ///< as of AttractorOptions
+  std::vector<drive::ShaftStates> starts{};  ///< likewise
+};
+
+Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress, const Way& way);
+
+/// Whether the motion that a headline names is of so few encoder steps that they may be its cause.
+bool is_of_few_steps(const Answer& answer) {
+  std::optional<double> steps;
+  if (const Cycle* cycle = answer.largest_stable()) {
+    steps = cycle->encoder_steps;
+  } else if (!answer.irregular.empty()) {
+    steps = answer.irregular.front().encoder_steps;
+  }
+  return steps && *steps <= steps_of_quantization && answer.verdict != Verdict::forced;
+}
+
+/// The first, the middle and the last start that lead to swings.
+std::vector<drive::ShaftStates> starts_that_swing(const drive::AttractorSearch& search) {
+  std::vector<drive::ShaftStates> all;
+  for (const drive::Outcome& outcome : search.outcomes) {
+    const bool swings =
+        outcome.end == drive::MotionEnd::cycle || outcome.end == drive::MotionEnd::irregular;
+    if (swings) all.push_back(outcome.start);
+  }
+  if (all.size() > 3) all = {all.front(), all[all.size() / 2], all.back()};
+  return all;
+}
+
+/// Answer::is_quantization. The first start that hunts without the encoder's steps decides.
+std::optional<bool> is_quantization(const Drive& drive, const drive::AttractorSearch& search,
+                                    const Wanted& wanted, Progress& progress) {
+  Drive exact = drive;
+  exact.sensor.encoder = {};
+  exact.sensor.speed_encoder = {};
+  Way way{.is_enough =
+              [](const drive::AttractorSearch& so_far) {
+                return so_far.count(drive::MotionEnd::cycle) +
+                           so_far.count(drive::MotionEnd::irregular) >
+                       0;
+              },
+          .starts = starts_that_swing(search)};
+  const Answer answer =
+      analysed(exact, {.proofs = false, .borders = false, .motion_bytes = wanted.motion_bytes},
+               progress, way)
+          .answer;
+  if (answer.largest_stable() != nullptr || !answer.irregular.empty()) return false;
+  if (answer.search && !answer.search->is_complete) return std::nullopt;
+  const bool rests = is_at_rest(answer.verdict) ||
+                     (answer.verdict == Verdict::runs_away_if_disturbed && answer.rest);
+  return rests ? std::optional(true) : std::nullopt;
+}
+
+Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress, const Way& way) {
   require_none(faults(drive));
   Analysis analysis;
   analysis.reduced = reduce_settled(drive);
@@ -416,14 +471,15 @@ Analysis analysed(const Drive& drive, const Analysis* near, const Wanted& wanted
     analysis.search = drive::AttractorSearch{};
     analysis.answer = answer_by_energy(analysis.reduced);
   } else {
-    if (near != nullptr && near->search) {
-      analysis.search = drive::follow_attractors(analysis.reduced, *near->search, progress);
+    if (way.near != nullptr && way.near->search) {
+      analysis.search = drive::follow_attractors(analysis.reduced, *way.near->search, progress);
       analysis.is_followed = analysis.search.has_value();
     }
     if (!analysis.search) {
       analysis.search = drive::find_attractors(
           analysis.reduced,
-          {.is_enough = is_enough,
+          {.starts = way.starts,
+           .is_enough = way.is_enough,
            .most_edges = wanted.borders ? drive::AttractorOptions{}.most_edges : 0,
            .budget = {.bytes_kept = wanted.motion_bytes}},
           progress);
@@ -437,6 +493,9 @@ Analysis analysed(const Drive& drive, const Analysis* near, const Wanted& wanted
   }
   // The motion from which a ceiling is measured stands in the end, unless a sine drives it.
   if (!is_driven(analysis.reduced)) withdraw_if_contradictory(analysis.answer);
+  if (wanted.quantization && analysis.search && is_of_few_steps(analysis.answer)) {
+    analysis.answer.is_quantization = is_quantization(drive, *analysis.search, wanted, progress);
+  }
   std::vector<Note> notes = notes_on(drive);
   analysis.answer.notes.insert(analysis.answer.notes.begin(), notes.begin(), notes.end());
   return analysis;
@@ -479,17 +538,17 @@ void add_figures(const drive::ReducedDrive& drive, const Wanted& wanted, Answer&
 }
 
 Analysis analyse_in_full(const Drive& drive, const Wanted& wanted, Progress& progress) {
-  return analysed(drive, nullptr, wanted, progress);
+  return analysed(drive, wanted, progress, {});
 }
 
 Analysis analyse_near(const Drive& drive, const Analysis& near, const Wanted& wanted,
                       Progress& progress) {
-  return analysed(drive, &near, wanted, progress);
+  return analysed(drive, wanted, progress, {.near = &near});
 }
 
 Analysis analyse_until(const Drive& drive, const Wanted& wanted, const IsEnough& is_enough,
                        Progress& progress, const Analysis* near) {
-  return analysed(drive, near, wanted, progress, is_enough);
+  return analysed(drive, wanted, progress, {.near = near, .is_enough = is_enough});
 }
 
 Answer analyse(const Drive& drive, const Wanted& wanted, Progress& progress) {

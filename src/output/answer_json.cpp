@@ -46,9 +46,7 @@ nlohmann::ordered_json json_cycle(const Cycle& cycle) {
           {"starts", cycle.starts}};
 }
 
-namespace {
-
-Json json_irregular(const IrregularMotion& motion) {
+nlohmann::ordered_json json_irregular(const IrregularMotion& motion) {
   return {{"amplitude", json_number(motion.amplitude)},
           {"motor_amplitude", json_optional(motion.motor_amplitude)},
           {"motor_alone", motion.is_motor_alone},
@@ -64,6 +62,8 @@ Json json_irregular(const IrregularMotion& motion) {
           {"encoder_steps", json_optional(motion.encoder_steps)},
           {"starts", motion.starts}};
 }
+
+namespace {
 
 const char* name_of_direction(double direction) {
   if (direction == 0.0) return "both";
@@ -171,6 +171,7 @@ std::string answer_json(const AnswerReport& report) {
   json["cycles"] = json_list(answer.cycles, &json_cycle);
   json["rest"] = json_rest(answer.rest);
   json["irregular"] = json_list(answer.irregular, &json_irregular);
+  json["quantization"] = answer.is_quantization ? Json(*answer.is_quantization) : Json(nullptr);
   json["runaway"] = json_runaway(answer);
   json["thresholds"] = json_list(answer.thresholds, &json_threshold);
   json["measured"] = measured_json(report);

@@ -81,10 +81,12 @@ std::string pace(const AnswerReport& report, double period) {
   return fmt::format(" at {} Hz", significant(1.0 / period, headline_digits));
 }
 
-/// ", 2 encoder steps: quantization"; empty for more, or without an encoder.
-std::string quantization_text(const std::optional<double>& steps) {
+/// ", 2 encoder steps: quantization", the word where the answer has that cause; empty for more
+/// steps, or without an encoder.
+std::string quantization_text(const AnswerReport& report, const std::optional<double>& steps) {
   if (!steps || *steps > steps_of_quantization) return "";
-  return ", " + significant(*steps, 2) + " encoder steps: quantization";
+  return ", " + significant(*steps, 2) + " encoder steps" +
+         (report.answer.is_quantization.value_or(false) ? ": quantization" : "");
 }
 
 std::string motion_text(const AnswerReport& report) {
@@ -100,7 +102,7 @@ std::string motion_text(const AnswerReport& report) {
              ", while the load stands still";
     }
     return amplitude(cycle->amplitude) + pace(report, cycle->period) +
-           quantization_text(cycle->encoder_steps);
+           quantization_text(report, cycle->encoder_steps);
   }
   if (report.answer.irregular.empty()) return "amplitude not known";
   const IrregularMotion& motion = report.answer.irregular.front();
@@ -108,13 +110,11 @@ std::string motion_text(const AnswerReport& report) {
   if (motion.is_motor_alone && motion.motor_amplitude) {
     return of_motor(*motion.motor_amplitude) + at + ", while the load hardly moves";
   }
-  if (repeats(motion)) {
-    return amplitude(*motion.mean_amplitude) + at + quantization_text(motion.encoder_steps);
-  }
-  return "up to " + amplitude(motion.amplitude) + at + quantization_text(motion.encoder_steps);
+  return (repeats(motion) ? "" : "up to ") + amplitude(reported_amplitude(motion)) + at +
+         quantization_text(report, motion.encoder_steps);
 }
 
-/// "by steps from 0.07 rad on"; the smaller step if the directions differ. Empty if it is not
+/// "steps from 0.07 rad on"; the smaller step if the directions differ. Empty if it is not
 /// known, or where the smallest step that was tried leads there.
 std::string steps_text(const AnswerReport& report, const std::string& end) {
   const Threshold* least = nullptr;
@@ -126,7 +126,7 @@ std::string steps_text(const AnswerReport& report, const std::string& end) {
   const std::string way = least->direction == 0.0  ? ""
                           : least->direction > 0.0 ? " forward"
                                                    : " backward";
-  return "by steps from " + angle_text(least->from, report.angle, headline_digits) + way + " on";
+  return "steps from " + angle_text(least->from, report.angle, headline_digits) + way + " on";
 }
 
 /// μ₀ with enough digits to show on which side of 1 it lies.
@@ -431,12 +431,23 @@ std::string besides(const AnswerReport& report) {
   const std::size_t open = answer.search->count("undecided");
   std::string text = (answer.search->is_complete ? "" : "; stopped early") + larger_motion(report);
   const std::string steps = is_verdict_on_runaway ? "" : steps_text(report, "running away");
-  if (!steps.empty()) text += "; runs away " + steps;
+  if (!steps.empty()) text += "; runs away after " + steps;
   if (away + open == 0) return text;
   const std::string of_all = fmt::format(" of {}", starts_text(answer.search->starts.size()));
   if (away > 0 && steps.empty()) text += fmt::format("; {}{} run away", away, of_all);
   if (open > 0) text += fmt::format("; {}{} undecided", open, of_all);
   return text;
+}
+
+/// What small steps lead to first: "comes to rest; runs away after steps from 61.9 deg on".
+std::string text_of_runaway(const AnswerReport& report) {
+  const SearchRecord& search = *report.answer.search;
+  const std::size_t rests = search.count("rest");
+  const std::string steps = steps_text(report, "running away");
+  if (!steps.empty()) return (rests > 0 ? "comes to rest; " : "") + ("runs away after " + steps);
+  const std::string of = " of " + starts_text(search.starts.size());
+  const std::string away = fmt::format("runs away from {}", search.count("diverges"));
+  return rests == 0 ? away + of : fmt::format("comes to rest from {}{}, {}", rests, of, away);
 }
 
 std::string headline_of_verdict(const AnswerReport& report) {
@@ -451,13 +462,11 @@ std::string headline_of_verdict(const AnswerReport& report) {
       return "forced oscillation: " + motion_text(report);
     case Verdict::hunts_if_disturbed: {
       const std::string steps = steps_text(report, "hunting");
-      return verdict + ": " + motion_text(report) + (steps.empty() ? "" : ", " + steps) +
+      return verdict + ": " + motion_text(report) + (steps.empty() ? "" : ", by " + steps) +
              (answer.growth_at_rest ? "; " + growth_beside_one(answer) : "");
     }
-    case Verdict::runs_away_if_disturbed: {
-      const std::string steps = steps_text(report, "running away");
-      return steps.empty() ? verdict : verdict + ": " + steps;
-    }
+    case Verdict::runs_away_if_disturbed:
+      return text_of_runaway(report);
     case Verdict::grows_without_bound:
       return verdict + ": no friction at all (damping 0)";
     case Verdict::undamped:

@@ -59,7 +59,8 @@ std::string answer_text(const AnswerReport& report);
 /// newline.
 std::string answer_json(const AnswerReport& report);
 
-/// One cycle of the report.
+/// One cycle of the report, and one irregular motion.
 nlohmann::ordered_json json_cycle(const Cycle& cycle);
+nlohmann::ordered_json json_irregular(const IrregularMotion& motion);
 
 }  // namespace gearlash

@@ -100,6 +100,35 @@ TEST(Headline, CountsTheStartsThatAreNoPartOfIt) {
   EXPECT_THAT(headline(report), HasSubstr("; stopped early; "));
 }
 
+TEST(Headline, OfARunawayBeginsWithWhatSmallStepsLeadTo) {
+  AnswerReport report = report_of(Verdict::runs_away_if_disturbed);
+  Answer& answer = report.answer;
+  answer.search->starts.assign(3, {.end = "rest"});
+  answer.search->starts.insert(answer.search->starts.end(), 2, {.end = "diverges"});
+  EXPECT_EQ(headline(report), "comes to rest from 3 of 5 starts, runs away from 2");
+  answer.thresholds = {{.end = "running away", .direction = 1.0, .below = 0.5, .from = 1.0}};
+  EXPECT_EQ(headline(report), "comes to rest; runs away after steps from 1 rad (57.3°) forward on");
+  answer.search->starts.assign(5, {.end = "undecided"});
+  answer.search->starts[0].end = "diverges";
+  EXPECT_EQ(headline(report),
+            "runs away after steps from 1 rad (57.3°) forward on; 4 of 5 starts undecided");
+  answer.thresholds.clear();
+  EXPECT_EQ(headline(report), "runs away from 1 of 5 starts; 4 of 5 starts undecided");
+}
+
+/// The word is for a cause that a run without the encoder has shown.
+TEST(Headline, NamesQuantizationWhereTheAnswerDoes) {
+  Cycle small = swing;
+  small.encoder_steps = 2.0;
+  AnswerReport report = report_of(Verdict::hunts, small);
+  for (const std::optional<bool> is_it : {std::optional<bool>(), std::optional(false)}) {
+    report.answer.is_quantization = is_it;
+    EXPECT_EQ(headline(report), "hunts: ±0.02 rad (1.15°) at 2 Hz, 2 encoder steps");
+  }
+  report.answer.is_quantization = true;
+  EXPECT_EQ(headline(report), "hunts: ±0.02 rad (1.15°) at 2 Hz, 2 encoder steps: quantization");
+}
+
 TEST(AnswerText, ListsUnstableCyclesInALineEach) {
   Cycle unstable = swing;
   unstable.stability = Stability::unstable;

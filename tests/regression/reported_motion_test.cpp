@@ -83,7 +83,7 @@ TEST(ReportedMotion, OfTheDrivesPageIsDecidedInLittleTime) {
   EXPECT_NEAR(*motion.mean_period, 4.1850, 5e-4);
   const std::string text = to_text(drive, answer);
   EXPECT_THAT(text, StartsWith("hunts if disturbed: ±0.00553 rad (0.317°) at 0.239 Hz"));
-  EXPECT_THAT(text, HasSubstr("runs away by steps from"));
+  EXPECT_THAT(text, HasSubstr("runs away after steps from"));
   EXPECT_THAT(text, Not(HasSubstr("not seen to repeat")));
   // Of simulated time: a start that repeats, or joins a known motion, need not be watched on.
   double watched = 0.0;
@@ -130,12 +130,12 @@ TEST(ReportedMotion, ThatASineDrivesIsForcedAndNoHunting) {
   }
 }
 
-TEST(ReportedMotion, OfAFewEncoderStepsIsQuantization) {
+TEST(ReportedMotion, OfAFewEncoderStepsIsGivenInSteps) {
   const Drive drive = drive_of("industrial/rnd08.toml");
   const Answer answer = analyse(drive);
   ASSERT_FALSE(answer.irregular.empty());
   EXPECT_LT(answer.irregular[0].encoder_steps.value(), steps_of_quantization);
-  EXPECT_THAT(headline(drive, answer), HasSubstr("3.5 encoder steps: quantization"));
+  EXPECT_THAT(headline(drive, answer), HasSubstr(", 3.5 encoder steps"));
 }
 
 IrregularMotion motion_with(double mismatch, double spread, double encoder_steps) {
@@ -214,7 +214,7 @@ TEST(ReportedMotion, SaysInItsFirstLineWhatLargeStepsDo) {
   const std::string line = headline(drive, answer);
   EXPECT_THAT(line, StartsWith("hunts if disturbed: "));
   EXPECT_THAT(line, HasSubstr(" at 18.7 Hz"));
-  EXPECT_THAT(line, HasSubstr("; runs away by steps from "));
+  EXPECT_THAT(line, HasSubstr("; runs away after steps from "));
   // ±0.195° at an encoder step of 0.0055°.
   EXPECT_NEAR(answer.irregular.at(0).encoder_steps.value(), 71.0, 2.0);
 }

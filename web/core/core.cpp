@@ -122,7 +122,8 @@ class Core::Session {
 
   /// Coarse: without proofs and borders; a search follows that of the drive before, or one start.
   Analysis analysed(bool is_coarse, const WrittenDrive& written, Progress& progress) {
-    Wanted wanted{.proofs = !is_coarse, .ceiling = true, .borders = !is_coarse};
+    Wanted wanted{
+        .proofs = !is_coarse, .ceiling = true, .borders = !is_coarse, .quantization = !is_coarse};
     if (!is_coarse) return analyse_in_full(written.drive, wanted, progress);
     return analyse_until(
         written.drive, wanted,
