@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "analysis/analyse.hpp"
 #include "command.hpp"
+#include "gearlash/analyse.hpp"
 #include "input/units.hpp"
 #include "machine_faults.hpp"
 #include "output/describe_report.hpp"
@@ -42,19 +42,9 @@ drive::DescribedPart part_of(const std::string& name) {
   return DescribedPart::gap_load_held;
 }
 
-/// A drive and its exact answer.
-struct DescribedDrive {
-  WrittenDrive written{};
-  Analysis analysis{};
-};
-
-DescribedDrive described_drive(const ServoOptions& options, const std::vector<Plot>& plots,
-                               Faults& faults) {
-  std::optional<WrittenDrive> written = resolve_drive(options, files_of(plots), faults);
-  faults.require_none();
+Answer exact_answer(const Drive& drive) {
   TerminalProgress progress("Searching");
-  Analysis analysis = analyse_in_full(written->drive, {.proofs = false}, progress);
-  return {*std::move(written), std::move(analysis)};
+  return analyse(drive, {.ceiling = true, .quantization = true}, progress);
 }
 
 void check_part(const DescribeOptions& options, Faults& faults) {
@@ -106,8 +96,7 @@ std::string draw(const DescribeReport& report, const DescribeOptions& options,
   }
   return draw_nyquist({.title = title_of(drawn.front().part),
                        .analyses = drawn,
-                       .exact = report.answer.verdict == Verdict::forced ? std::vector<Cycle>{}
-                                                                         : report.answer.cycles,
+                       .exact = drive::exact_motions(report.answer),
                        .angle = report.angle,
                        .is_normalized = report.is_normalized},
                       format);
@@ -118,11 +107,12 @@ ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
   faults.require_choice("--format", options.format, {"text", "json"});
   const std::vector<Plot> plots = read_plots(options.plots, {"nyquist"}, faults);
   check_part(options, faults);
-  const DescribedDrive input = described_drive(options.servo, plots, faults);
+  const std::optional<WrittenDrive> written = resolve_drive(options.servo, files_of(plots), faults);
+  faults.require_none();
 
-  const Answer& answer = input.analysis.answer;
+  const Answer answer = exact_answer(written->drive);
   const DescribeReport report =
-      describe_report_of(input.written.drive, answer, input.written.angle, provenance);
+      describe_report_of(written->drive, answer, written->angle, provenance);
   Extras extras;
   for (const Plot& plot : plots) {
     extras.make([&] { write_file(plot.file, draw(report, options, plot.format)); });

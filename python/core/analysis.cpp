@@ -50,7 +50,8 @@ struct Written {
 py::tuple described(py::handle drive, const py::object& progress) {
   const Drive of = drive_of(drive);
   const Written written = interruptible(progress, [&](Progress& reports) {
-    const DescribeReport report = describe_report_of(of, analyse(of, {.proofs = false}, reports));
+    const DescribeReport report =
+        describe_report_of(of, analyse(of, {.ceiling = true, .quantization = true}, reports));
     return Written{describe_json(report), describe_text(report)};
   });
   return py::make_tuple(written.json, written.text);

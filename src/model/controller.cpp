@@ -276,13 +276,15 @@ std::vector<double> numbers_of(const Vector& vector) {
 
 /// With d/dt ↦ (z − 1)/(T (share z + 1 − share)), S = (I − share T A)⁻¹:
 ///   z⁺ = S (I + (1 − share) T A) z + S B T u,  output C S z + (D + share T C S B) u.
+double share_of_end(Discretization method) {
+  return method == Discretization::tustin ? 0.5 : method == Discretization::backward ? 1.0 : 0.0;
+}
+
 LinearController sampled_controller(const Controller& controller, const Sampling& sampling) {
   LinearController given = linear_controller(controller);
   const std::size_t order = given.order();
   if (std::holds_alternative<SampledTransfer>(controller) || order == 0) return given;
-  const double share = sampling.method == Discretization::tustin     ? 0.5
-                       : sampling.method == Discretization::backward ? 1.0
-                                                                     : 0.0;
+  const double share = share_of_end(sampling.method);
   const double period = sampling.period;
   const auto size = static_cast<Eigen::Index>(order);
   const Matrix dynamics = matrix_of(given.state_matrix, order);

@@ -93,6 +93,9 @@ enum class Discretization {
   forward    ///< (z − 1)/T
 };
 
+/// A state advances by T ((1 − share) ẋ(t) + share ẋ(t + T)): ½, 1, 0.
+double share_of_end(Discretization method);
+
 /// Timing of a sampled controller: it reads at 0, period, 2 period, …, and outputs each result
 /// `delay` later. The output is held until the next one.
 struct Sampling {

@@ -18,6 +18,7 @@ namespace {
 
 using drive::DescribedMotion;
 using drive::DescribingAnalysis;
+using drive::ExactMotion;
 using drive::PredictionError;
 
 const char* stability(bool stable) { return stable ? "stable" : "unstable"; }
@@ -31,14 +32,7 @@ std::string with_capital(std::string text) {
   return text;
 }
 
-struct ReportedMotion {
-  double amplitude;
-  double motor_amplitude;
-  double period;
-};
-
-Cells motion_row(const std::string& name, const ReportedMotion& motion,
-                 const DescribeReport& report) {
+Cells motion_row(const std::string& name, const ExactMotion& motion, const DescribeReport& report) {
   return {name, swing_text(motion.amplitude, report.angle, usual_digits),
           "±" + angle_text(motion.motor_amplitude, report.angle, usual_digits),
           time_text(motion.period, report.is_normalized, usual_digits),
@@ -53,18 +47,18 @@ Cells error_row(const PredictionError& error) {
 
 bool is_forced(const DescribeReport& report) { return report.answer.verdict == Verdict::forced; }
 
-/// The text for a stable predicted cycle without an exact cycle near it.
-std::string without_exact(const DescribeReport& report) {
+/// The text for a stable predicted cycle without an exact motion near it.
+std::string without_exact(const DescribeReport& report, const std::vector<ExactMotion>& exact) {
   if (report.answer.verdict == Verdict::undecided) return "undecided";
-  const bool has_stable =
-      std::any_of(report.answer.cycles.begin(), report.answer.cycles.end(),
-                  [](const Cycle& cycle) { return cycle.stability == Stability::stable; });
-  return has_stable ? "no stable cycle near it" : "no stable cycle";
+  const bool has_stable = std::any_of(exact.begin(), exact.end(),
+                                      [](const ExactMotion& motion) { return motion.is_stable; });
+  return has_stable ? "no stable motion near it" : "no stable cycle";
 }
 
-/// Each predicted cycle beside the exact cycle that it predicts.
+/// Each predicted cycle beside the exact motion that it predicts.
 std::string cycle_table(const DescribingAnalysis& analysis, const DescribeReport& report) {
   std::vector<Cells> rows = {{"", "amplitude", "motor", "period", "frequency"}};
+  const std::vector<ExactMotion> exact = drive::exact_motions(report.answer);
   for (const DescribedMotion& cycle : analysis.cycles) {
     if (drive::is_unseen(cycle, report.backlash)) continue;
     const std::string kind = stability(cycle.balance.stable);
@@ -72,12 +66,10 @@ std::string cycle_table(const DescribingAnalysis& analysis, const DescribeReport
                               {cycle.amplitude, cycle.motor_amplitude, cycle.balance.period},
                               report));
     if (is_forced(report)) continue;
-    const auto error = drive::prediction_error(analysis.part, cycle, report.answer.cycles);
-    if (!error && cycle.balance.stable) rows.push_back({"  exact", without_exact(report)});
+    const auto error = drive::prediction_error(analysis.part, cycle, exact);
+    if (!error && cycle.balance.stable) rows.push_back({"  exact", without_exact(report, exact)});
     if (!error) continue;
-    const Cycle& exact = report.answer.cycles[error->exact];
-    rows.push_back(
-        motion_row("  exact", {exact.amplitude, exact.motor_amplitude, exact.period}, report));
+    rows.push_back(motion_row("  exact", exact[error->exact], report));
     rows.push_back(error_row(*error));
   }
   return table_text(rows);
@@ -166,17 +158,6 @@ std::string analysis_text(const DescribingAnalysis& analysis, const DescribeRepo
   return remarks.empty() ? text : text + indented(wrapped(remarks));
 }
 
-std::string exact_motion_text(const DescribeReport& report) {
-  std::string text = std::string("exact: ") +
-                     (is_forced(report) ? "forced oscillation" : name_of(report.answer.verdict));
-  for (const Cycle& cycle : report.answer.cycles) {
-    if (cycle.stability != Stability::stable) continue;
-    text += fmt::format(", {}, {}", swing_text(cycle.amplitude, report.angle, usual_digits),
-                        frequency_text(cycle.period, report.is_normalized, usual_digits));
-  }
-  return text + "\n";
-}
-
 // ---- JSON ---------------------------------------------------------------------------------------
 
 Json json_nonlinearity(const Nonlinearity& nonlinearity) {
@@ -217,9 +198,12 @@ Json json_transfer(const TransferFunction& transfer) {
           {"delay", json_number(transfer.delay)}};
 }
 
-Json json_error(const std::optional<PredictionError>& error) {
+Json json_error(const std::optional<PredictionError>& error, const Answer& answer) {
   if (!error) return nullptr;
-  return {{"of_exact_cycle", error->exact},
+  const std::size_t cycles = answer.cycles.size();
+  const bool is_of_cycle = error->exact < cycles;
+  return {{"of_exact_cycle", is_of_cycle ? Json(error->exact) : Json(nullptr)},
+          {"of_irregular", is_of_cycle ? Json(nullptr) : Json(error->exact - cycles)},
           {"amplitude", json_number(error->amplitude)},
           {"motor_amplitude", json_number(error->motor_amplitude)},
           {"period", json_number(error->period)},
@@ -229,9 +213,7 @@ Json json_error(const std::optional<PredictionError>& error) {
 Json json_motion(const DescribingAnalysis& analysis, const DescribedMotion& motion,
                  const DescribeReport& report) {
   const PredictedCycle& balance = motion.balance;
-  const auto error = is_forced(report)
-                         ? std::nullopt
-                         : prediction_error(analysis.part, motion, report.answer.cycles);
+  const auto error = prediction_error(analysis.part, motion, drive::exact_motions(report.answer));
   return {{"stable", balance.stable},
           {"amplitude", json_number(motion.amplitude)},
           {"motor_amplitude", json_number(motion.motor_amplitude)},
@@ -242,7 +224,7 @@ Json json_motion(const DescribingAnalysis& analysis, const DescribedMotion& moti
            {{"real", json_number(balance.gain.real())},
             {"imaginary", json_number(balance.gain.imag())}}},
           {"residual", json_number(balance.residual)},
-          {"error", json_error(error)}};
+          {"error", json_error(error, report.answer)}};
 }
 
 Json json_analysis(const DescribingAnalysis& analysis, const DescribeReport& report) {
@@ -273,7 +255,9 @@ DescribeReport describe_report_of(const Drive& drive, const Answer& answer, cons
 }
 
 std::string describe_text(const DescribeReport& report) {
-  std::string text = exact_motion_text(report);
+  AnswerReport exact = report_of(report.drive, report.answer, report.angle, {});
+  exact.is_normalized = report.is_normalized;
+  std::string text = headline(exact) + "\n";
   for (const DescribingAnalysis& analysis : report.analyses) {
     text += "\n" + analysis_text(analysis, report);
   }
@@ -285,6 +269,7 @@ std::string describe_json(const DescribeReport& report) {
   json["engine"] = name_of(report.answer.engine);
   json["verdict"] = name_of(report.answer.verdict);
   json["cycles"] = json_list(report.answer.cycles, &json_cycle);
+  json["irregular"] = json_list(report.answer.irregular, &json_irregular);
   json["analyses"] = json_list(report.analyses, [&](const DescribingAnalysis& analysis) {
     return json_analysis(analysis, report);
   });

@@ -25,8 +25,8 @@ struct DescribeReport {
 DescribeReport describe_report_of(const Drive& drive, const Answer& answer,
                                   const AngleUnit& angle = {}, const Provenance& provenance = {});
 
-/// The exact answer in one line. Then for each analysis a table of predicted and exact values with
-/// the error in per cent, the loop and the assumptions. Ends with a newline.
+/// The headline of the exact answer. Then for each analysis a table of predicted and exact values
+/// with the error in per cent, the loop and the assumptions. Ends with a newline.
 std::string describe_text(const DescribeReport& report);
 
 /// "gearlash/describe/2", specified in docs/schemas/describe.schema.json, in SI. Numbers read back

@@ -59,6 +59,10 @@ std::string distinction(const NyquistPicture& picture, const DescribingAnalysis&
                                                              : "";
 }
 
+bool is_drawn(const drive::ExactMotion& motion) {
+  return motion.is_stable && std::isfinite(motion.period) && std::isfinite(motion.motor_amplitude);
+}
+
 std::vector<KeyPoint> key_points(const NyquistPicture& picture) {
   std::vector<KeyPoint> points;
   int number = 0;
@@ -73,8 +77,8 @@ std::vector<KeyPoint> key_points(const NyquistPicture& picture) {
                                     motion_text(cycle.amplitude, cycle.balance.period, picture))});
     }
   }
-  for (const Cycle& cycle : picture.exact) {
-    if (cycle.stability != Stability::stable) continue;
+  for (const drive::ExactMotion& cycle : picture.exact) {
+    if (!is_drawn(cycle)) continue;
     points.push_back(
         {loop_at(picture.analyses.front().loop, turn / cycle.period), MarkKind::exact_frequency,
          "exact ω",
@@ -469,9 +473,7 @@ std::vector<DescribingAnalysis> of_one_loop(const std::vector<DescribingAnalysis
 }
 
 std::string draw_nyquist(const NyquistPicture& picture, PictureFormat format) {
-  const bool has_exact =
-      std::any_of(picture.exact.begin(), picture.exact.end(),
-                  [](const Cycle& cycle) { return cycle.stability == Stability::stable; });
+  const bool has_exact = std::any_of(picture.exact.begin(), picture.exact.end(), is_drawn);
   const std::string subtitle =
       std::string("cycles are predicted where L(jω) = −1/N(A)") +
       (has_exact ? "; were that exact, the diamonds would be one point" : "");

@@ -14,7 +14,7 @@ struct NyquistPicture {
   std::string title = {};  ///< one line
   /// Nonlinearities in the same loop, which is drawn once. At least one; all are drawn.
   std::vector<drive::DescribingAnalysis> analyses = {};
-  std::vector<Cycle> exact = {};  ///< the stable ones are drawn
+  std::vector<drive::ExactMotion> exact = {};  ///< stable ones of known period are drawn
   AngleUnit angle = {};
   bool is_normalized = false;  ///< times are in units of 1/ω_n, frequencies are ω
 };

@@ -138,7 +138,7 @@ frequency = "1 Hz"
 )";
   const Outcome text = describe({path.string()});
   ASSERT_EQ(text.status, 0) << text.err;
-  EXPECT_THAT(text.out, StartsWith("exact: forced oscillation, ±3.088 deg"));
+  EXPECT_THAT(text.out, StartsWith("forced oscillation: ±3.09 deg"));
   EXPECT_THAT(text.out, testing::Not(HasSubstr("error")));
   const auto json = nlohmann::json::parse(describe({path.string(), "--format", "json"}).out);
   EXPECT_EQ(json["verdict"], "forced");

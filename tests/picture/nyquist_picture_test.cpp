@@ -35,18 +35,9 @@ NyquistPicture picture_of(const drive::ReducedDrive& drive, DescribedPart part) 
   return picture;
 }
 
-Cycle exact_cycle(double amplitude, double motor_amplitude, double period) {
-  Cycle cycle;
-  cycle.amplitude = amplitude;
-  cycle.motor_amplitude = motor_amplitude;
-  cycle.period = period;
-  return cycle;
-}
-
 NyquistPicture picture_of(DescribedPart part) {
   NyquistPicture picture = picture_of(all_parts(), part);
-  picture.exact = {exact_cycle(0.03, 0.035, 2.5), exact_cycle(0.01, 0.01, 5.0)};
-  picture.exact[1].stability = Stability::unstable;
+  picture.exact = {{0.03, 0.035, 2.5}, {0.01, 0.01, 5.0, false}};
   return picture;
 }
 
@@ -137,7 +128,7 @@ TEST(EdgeNyquistPicture, WithoutCycleOrExactOneThereAreTheCurves) {
 /// The exact motor moves less than half the gap: a held load would not move at all.
 TEST(EdgeNyquistPicture, AnAmplitudeWithoutGainIsSaidSo) {
   NyquistPicture picture = picture_of(DescribedPart::gap_load_held);
-  picture.exact = {exact_cycle(0.003, 0.005, 2.5)};
+  picture.exact = {{0.003, 0.005, 2.5}};
   EXPECT_THAT(draw_nyquist(picture, PictureFormat::svg),
               HasSubstr("−1/N at the exact amplitude, held: none, too small"));
 }

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "analysis/repetition.hpp"
 #include "model/rational_function.hpp"
 
 namespace gearlash::drive {
@@ -30,6 +31,72 @@ RationalFunction forward_shift(double period) {
   return (RationalFunction(1.0) + half) / (RationalFunction(1.0) - half);
 }
 
+/// p(z) (1 − h)^degree at z = (1 + h)/(1 − h) with h = s T/2, that is, z of forward_shift().
+Polynomial by_frequency(const Polynomial& p, std::size_t degree, double period) {
+  const Rational half = Rational(period) / 2;
+  Polynomial sum;
+  std::vector<Rational> sizes(degree + 1, Rational(0));  // of all that is added to a coefficient
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    Polynomial term(p[k]);
+    for (std::size_t i = 0; i < degree; ++i) {
+      term *= Polynomial{Rational(1), i < k ? half : Rational(-half)};
+    }
+    sum += term;
+    for (std::size_t i = 0; i < term.size(); ++i) sizes[i] += abs(term[i]);
+  }
+  const Rational rounding(std::ldexp(1.0, -50));
+  std::vector<Rational> coefficients(sum.data());
+  for (std::size_t i = 0; i < coefficients.size(); ++i) {
+    if (abs(coefficients[i]) < rounding * sizes[i]) coefficients[i] = 0;
+  }
+  return Polynomial(std::move(coefficients));
+}
+
+/// A function of z as one of s.
+RationalFunction by_frequency(const RationalFunction& function, double period) {
+  const std::size_t degree =
+      std::max(function.numerator().size(), function.denominator().size()) - 1;
+  return {by_frequency(function.numerator(), degree, period),
+          by_frequency(function.denominator(), degree, period)};
+}
+
+/// What the computer has for d/dt, as a function of s: it advances a state by
+/// T ((1 − share) ẋ(t) + share ẋ(t + T)). By Tustin's rule that is s itself.
+RationalFunction rate(const Sampling& sampling, double share) {
+  const RationalFunction slope(Rational(share - 0.5) * Rational(sampling.period));
+  return variable() / (RationalFunction(1.0) + slope * variable());
+}
+
+/// The sampled controller as a function of s, without rounding: discretized in floating point, it
+/// would have tiny coefficients where terms cancel.
+ExactControllerTransfer sampled_transfer(const ReducedDrive& drive, TorqueGiven torque) {
+  const Sampling& sampling = *drive.sampling;
+  ExactControllerTransfer transfer = exact_transfer(linear_controller(drive.controller), torque);
+  if (std::holds_alternative<SampledTransfer>(drive.controller)) {
+    transfer.position = by_frequency(transfer.position, sampling.period);
+    return transfer;  // it has neither speed nor anti-windup
+  }
+  const double share = share_of_end(sampling.method);
+  const RationalFunction by_rate = rate(sampling, share);
+  transfer.position = composed(transfer.position, by_rate);
+  transfer.speed = composed(transfer.speed, by_rate);
+  if (transfer.given.is_zero()) return transfer;
+  // τ = H u + G (τ_given − τ), and the computer's G is without the part that acts within a sample.
+  const RationalFunction one(1.0);
+  const RationalFunction winding_back = transfer.given / (one - transfer.given);
+  const RationalFunction continuous = composed(winding_back, by_rate);
+  RationalFunction sampled = continuous;
+  if (share > 0.0) {
+    const Rational end = 1 / (Rational(share) * Rational(sampling.period));
+    sampled = continuous - composed(winding_back, RationalFunction(end));
+  }
+  const RationalFunction change = (one + continuous) / (one + sampled);
+  transfer.position = transfer.position * change;
+  transfer.speed = transfer.speed * change;
+  transfer.given = sampled / (one + sampled);
+  return transfer;
+}
+
 /// 1 + T s of a winding that lags.
 RationalFunction lag_of(const Winding& winding) {
   return RationalFunction(1.0) + RationalFunction(Rational(winding.time_constant)) * variable();
@@ -37,19 +104,14 @@ RationalFunction lag_of(const Winding& winding) {
 
 /// Of the torque as the winding gives it; of the requested torque where that may be limited.
 Feedback feedback_of(const ReducedDrive& drive, TorqueGiven torque) {
-  const bool is_sampled = drive.sampling.has_value();
-  const LinearController controller = is_sampled
-                                          ? sampled_controller(drive.controller, *drive.sampling)
-                                          : linear_controller(drive.controller);
-  ExactControllerTransfer transfer = exact_transfer(controller, torque);
+  ExactControllerTransfer transfer =
+      drive.sampling ? sampled_transfer(drive, torque)
+                     : exact_transfer(linear_controller(drive.controller), torque);
   RationalFunction speed_by_position = variable();
   double delay = 0.0;
-  if (is_sampled) {
-    const RationalFunction shift = forward_shift(drive.sampling->period);
-    transfer.position = composed(transfer.position, shift);
-    transfer.speed = composed(transfer.speed, shift);
-    transfer.given = composed(transfer.given, shift);
+  if (drive.sampling) {
     if (drive.sampling->speed_by_differences) {
+      const RationalFunction shift = forward_shift(drive.sampling->period);
       speed_by_position = (RationalFunction(1.0) - RationalFunction(1.0) / shift) /
                           RationalFunction(drive.sampling->period);
     }
@@ -406,9 +468,24 @@ const char* description_of(Assumption assumption) {
   return "";
 }
 
+std::vector<ExactMotion> exact_motions(const Answer& answer) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  std::vector<ExactMotion> motions;
+  if (answer.verdict == Verdict::forced) return motions;
+  for (const Cycle& cycle : answer.cycles) {
+    motions.push_back({cycle.amplitude, cycle.motor_amplitude, cycle.period,
+                       cycle.stability == Stability::stable});
+  }
+  for (const IrregularMotion& motion : answer.irregular) {
+    motions.push_back({reported_amplitude(motion), motion.motor_amplitude.value_or(unknown),
+                       motion.mean_period.value_or(unknown), true});
+  }
+  return motions;
+}
+
 std::optional<PredictionError> prediction_error(DescribedPart part,
                                                 const DescribedMotion& predicted,
-                                                const std::vector<Cycle>& exact) {
+                                                const std::vector<ExactMotion>& exact) {
   const bool is_of_gap =
       part != DescribedPart::torque_limit && part != DescribedPart::coulomb_friction;
   const double farthest =
@@ -416,8 +493,8 @@ std::optional<PredictionError> prediction_error(DescribedPart part,
   std::optional<PredictionError> nearest;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < exact.size(); ++i) {
-    const Cycle& cycle = exact[i];
-    if ((cycle.stability == Stability::stable) != predicted.balance.stable) continue;
+    const ExactMotion& cycle = exact[i];
+    if (cycle.is_stable != predicted.balance.stable) continue;
     const double amplitude = predicted.amplitude / cycle.amplitude;
     const double period = predicted.balance.period / cycle.period;
     const double of_amplitude = std::abs(std::log(amplitude));
@@ -436,7 +513,7 @@ bool is_unseen(const DescribedMotion& predicted, double backlash) {
   return predicted.amplitude < unseen_share * backlash;
 }
 
-double input_amplitude(const DescribingAnalysis& analysis, const Cycle& exact) {
+double input_amplitude(const DescribingAnalysis& analysis, const ExactMotion& exact) {
   return exact.motor_amplitude * modulus(analysis.input_per_motor, turn / exact.period);
 }
 

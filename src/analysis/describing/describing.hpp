@@ -86,9 +86,12 @@ struct DescribingAnalysis {
 ///                The other parts of such a drive take its controller as linear and are left out.
 ///
 /// A sampled controller is converted to continuous time by z = (1 + sT/2)/(1 − sT/2), which gives
-/// the original controller if it was discretized by Tustin's rule. The hold counts as a delay of
-/// half a period, to which the computational delay is added. The delay is kept if it is a factor of
-/// L. Otherwise a rational function of order 4 in numerator and denominator replaces it.
+/// the original controller if it was discretized by Tustin's rule. Of a controller given by its
+/// G(z), a coefficient counts as 0 below 2⁻⁵⁰ of the sum of the sizes of the terms that cancel in
+/// it: that is rounding of the numbers given. Nothing else is rounded before the end. The hold
+/// counts as a delay of half a period, to which the computational delay is added. The delay is kept
+/// if it is a factor of L. Otherwise a rational function of order 4 in numerator and denominator
+/// replaces it.
 ///
 /// Linear parts are formed in exact arithmetic. All cycles are found from 1e-9 to 1e6 times the
 /// frequencies of poles, zeros and crossover (harmonic_balance()).
@@ -107,9 +110,21 @@ const char* description_of(Assumption assumption);
 
 // ---- beside the exact cycle ---------------------------------------------------------------------
 
+/// A motion that an answer has.
+struct ExactMotion {
+  double amplitude = 0.0;        ///< rad, of the load
+  double motor_amplitude = 0.0;  ///< rad; NaN if it was not measured
+  double period = 0.0;           ///< s; NaN if it was not measured
+  bool is_stable = true;
+};
+
+/// The answer's cycles, then its irregular motions, in its order; none of a drive that a sine
+/// drives, whose motion is not predicted.
+std::vector<ExactMotion> exact_motions(const Answer& answer);
+
 /// Errors of a prediction: predicted over exact value, minus 1.
 struct PredictionError {
-  std::size_t exact = 0;  ///< index into the exact cycles
+  std::size_t exact = 0;  ///< index into the exact motions
   double amplitude = std::numeric_limits<double>::quiet_NaN();
   double motor_amplitude = std::numeric_limits<double>::quiet_NaN();
   double period = std::numeric_limits<double>::quiet_NaN();
@@ -120,12 +135,12 @@ struct PredictionError {
 /// and period agree within this factor. Otherwise it is another motion and no error is reported.
 inline constexpr double same_cycle_factor = 2.0;
 
-/// Compares with the exact cycle that is stable or not, as the predicted one is, and among these
+/// Compares with the exact motion that is stable or not, as the predicted one is, and among these
 /// has the least |ln amplitude ratio| + |ln period ratio|. Empty if the part can have caused none
 /// of them.
 std::optional<PredictionError> prediction_error(DescribedPart part,
                                                 const DescribedMotion& predicted,
-                                                const std::vector<Cycle>& exact);
+                                                const std::vector<ExactMotion>& exact);
 
 /// Whether a predicted cycle is too small to be seen: below `unseen_share` of the backlash.
 inline constexpr double unseen_share = 1e-4;
@@ -133,6 +148,6 @@ bool is_unseen(const DescribedMotion& predicted, double backlash);
 
 /// The amplitude that the nonlinearity's input would have if the exact motion of the motor were a
 /// sine. For a gap, this is the motor's exact amplitude.
-double input_amplitude(const DescribingAnalysis& analysis, const Cycle& exact);
+double input_amplitude(const DescribingAnalysis& analysis, const ExactMotion& exact);
 
 }  // namespace gearlash::drive

@@ -290,15 +290,6 @@ TEST(OracleDescribing, SpeedByDifferencesIsLateByHalfAPeriod) {
 
 // ---- beside the exact cycle ---------------------------------------------------------------------
 
-Cycle exact_cycle(double amplitude, double motor_amplitude, double period, Stability stability) {
-  Cycle cycle;
-  cycle.amplitude = amplitude;
-  cycle.motor_amplitude = motor_amplitude;
-  cycle.period = period;
-  cycle.stability = stability;
-  return cycle;
-}
-
 DescribedMotion predicted_cycle(double amplitude, double motor_amplitude, double period) {
   DescribedMotion predicted{.amplitude = amplitude, .motor_amplitude = motor_amplitude};
   predicted.balance.period = period;
@@ -308,9 +299,8 @@ DescribedMotion predicted_cycle(double amplitude, double motor_amplitude, double
 
 TEST(Describing, ErrorsAreAgainstTheExactCycleOfTheSameStability) {
   const DescribedMotion predicted = predicted_cycle(2.0, 3.0, 5.0);
-  const std::vector<Cycle> exact = {exact_cycle(2.0, 3.0, 5.0, Stability::unstable),
-                                    exact_cycle(40.0, 1.0, 5.0, Stability::stable),
-                                    exact_cycle(1.6, 4.0, 4.0, Stability::stable)};
+  const std::vector<ExactMotion> exact = {
+      {2.0, 3.0, 5.0, false}, {40.0, 1.0, 5.0}, {1.6, 4.0, 4.0}};
   const auto error = prediction_error(DescribedPart::gap_load_held, predicted, exact);
   ASSERT_TRUE(error);
   EXPECT_EQ(error->exact, 2U);
@@ -321,18 +311,45 @@ TEST(Describing, ErrorsAreAgainstTheExactCycleOfTheSameStability) {
   EXPECT_FALSE(prediction_error(DescribedPart::gap_load_held, predicted, {exact[0]}));
 }
 
+/// Irregular motion follows the cycles, by the amplitude of its reports; forced motion is none.
+TEST(Describing, ExactMotionsAreThoseOfTheAnswer) {
+  Answer answer;
+  answer.verdict = Verdict::hunts;
+  answer.cycles = {
+      {.stability = Stability::unstable, .amplitude = 2.0, .motor_amplitude = 3.0, .period = 5.0}};
+  answer.irregular = {{.amplitude = 1.2,
+                       .motor_amplitude = 1.5,
+                       .mean_amplitude = 1.0,
+                       .mean_period = 4.0,
+                       .mismatch = 1e-6},
+                      {.amplitude = 7.0}};
+  const std::vector<ExactMotion> motions = exact_motions(answer);
+  ASSERT_EQ(motions.size(), 3U);
+  EXPECT_FALSE(motions[0].is_stable);
+  EXPECT_EQ(motions[0].period, 5.0);
+  EXPECT_EQ(motions[1].amplitude, 1.0);
+  EXPECT_EQ(motions[1].motor_amplitude, 1.5);
+  EXPECT_EQ(motions[1].period, 4.0);
+  const auto error =
+      prediction_error(DescribedPart::gap_load_held, predicted_cycle(2.0, 3.0, 5.0), motions);
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->exact, 1U);  // of the third no period is known
+  answer.verdict = Verdict::forced;
+  EXPECT_TRUE(exact_motions(answer).empty());
+}
+
 TEST(Describing, AnotherMotionIsNotTakenForThatOfTheTorqueLimit) {
   const DescribedMotion predicted = predicted_cycle(50.0, 50.0, 0.5);
-  const std::vector<Cycle> exact = {exact_cycle(0.2, 0.3, 0.16, Stability::stable)};
+  const std::vector<ExactMotion> exact = {{0.2, 0.3, 0.16}};
   EXPECT_FALSE(prediction_error(DescribedPart::torque_limit, predicted, exact));
   EXPECT_FALSE(prediction_error(DescribedPart::coulomb_friction, predicted, exact));
   EXPECT_TRUE(prediction_error(DescribedPart::gap_load_coasting, predicted, exact));
-  const std::vector<Cycle> near = {exact_cycle(30.0, 30.0, 0.4, Stability::stable)};
+  const std::vector<ExactMotion> near = {{30.0, 30.0, 0.4}};
   EXPECT_TRUE(prediction_error(DescribedPart::torque_limit, predicted, near));
 }
 
 TEST(Describing, TheInputOfTheExactCycleIsOfThePart) {
-  const Cycle exact = exact_cycle(1.0, 0.5, pi, Stability::stable);
+  const ExactMotion exact{1.0, 0.5, pi};
   const auto friction = described(pid_with_friction(12.0), DescribedPart::coulomb_friction);
   EXPECT_NEAR(input_amplitude(friction, exact), 1.0, 1e-14);  // a speed
   const auto gap = described(pid_with_friction(12.0), DescribedPart::gap_load_held);
