@@ -107,11 +107,11 @@ TEST(Headline, OfARunawayBeginsWithWhatSmallStepsLeadTo) {
   answer.search->starts.insert(answer.search->starts.end(), 2, {.end = "diverges"});
   EXPECT_EQ(headline(report), "comes to rest from 3 of 5 starts, runs away from 2");
   answer.thresholds = {{.end = "running away", .direction = 1.0, .below = 0.5, .from = 1.0}};
-  EXPECT_EQ(headline(report), "comes to rest; runs away after steps from 1 rad (57.3°) forward on");
+  EXPECT_EQ(headline(report), "comes to rest; runs away after steps from 1 rad forward on");
   answer.search->starts.assign(5, {.end = "undecided"});
   answer.search->starts[0].end = "diverges";
   EXPECT_EQ(headline(report),
-            "runs away after steps from 1 rad (57.3°) forward on; 4 of 5 starts undecided");
+            "runs away after steps from 1 rad forward on; 4 of 5 starts undecided");
   answer.thresholds.clear();
   EXPECT_EQ(headline(report), "runs away from 1 of 5 starts; 4 of 5 starts undecided");
 }
