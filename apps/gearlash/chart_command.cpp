@@ -55,13 +55,14 @@ void require_branches(const GridTask& task) {
 }
 
 /// Draws the bifurcation pictures.
-ExitStatus draw_branches(const GridTask& task, const std::vector<Plot>& plots) {
+ExitStatus draw_branches(const GridTask& task, const std::vector<Plot>& plots, LimitedWork& work) {
   BifurcationDiagram diagram;
   {
-    TerminalProgress progress("Branches");
+    TerminalProgress progress(work, "Branches");
     diagram = bifurcations_of(task.grid.drive, task.grid.axes.back(), progress);
   }
   Extras extras;
+  if (work.is_stopped()) end_work(work, ExitStatus::undecided, "branches are missing");
   for (const Plot& plot : plots) {
     extras.make([&] {
       write_file(plot.file,
@@ -70,8 +71,8 @@ ExitStatus draw_branches(const GridTask& task, const std::vector<Plot>& plots) {
   }
   std::string made;
   for (const Plot& plot : plots) made += (made.empty() ? "" : ", ") + plot.file;
-  write_file("-", fmt::format("{}: {} branches, {} borders\n", made, diagram.branches.size(),
-                              diagram.borders.size()));
+  extras.print(fmt::format("{}: {} branches, {} borders\n", made, diagram.branches.size(),
+                           diagram.borders.size()));
   return extras.status(diagram.is_complete ? ExitStatus::done : ExitStatus::undecided);
 }
 
@@ -85,13 +86,14 @@ ExitStatus run(const ChartOptions& options, const Provenance& provenance) {
   for (const Plot& plot : task.plots) {
     (plot.kind == "bifurcation" ? branches : curves).push_back(plot);
   }
+  if (!branches.empty()) require_branches(task);
+  LimitedWork work(task.limits);
   if (!branches.empty()) {
-    require_branches(task);
-    const ExitStatus status = draw_branches(task, branches);
+    const ExitStatus status = draw_branches(task, branches, work);
     if ((curves.empty() && task.table.empty()) || status != ExitStatus::done) return status;
   }
   task.plots = std::move(curves);
-  return make_grid_files(task, provenance, [&](const GridTable& table, PictureFormat format) {
+  return make_grid_files(task, work, provenance, [&](const GridTable& table, PictureFormat format) {
     return draw_line_chart(chart_of(table, task.quantity), format);
   });
 }

@@ -5,6 +5,7 @@
 
 #include "command.hpp"
 #include "input/units.hpp"
+#include "limit_options.hpp"
 #include "machine_faults.hpp"
 #include "output/comparison_report.hpp"
 #include "output/output_file.hpp"
@@ -27,6 +28,7 @@ struct CompareOptions {
   std::optional<std::string> step;
   std::optional<std::string> until;
   std::string format = "text";
+  LimitOptions limits;
   std::vector<std::string> plots;
 };
 
@@ -72,23 +74,27 @@ ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
   const std::vector<SensorPlace> places = read_sensors(options.sensors, faults);
   const std::optional<WrittenDrive> written = resolve_drive(options.servo, files_of(plots), faults);
   const drive::Step step = written ? read_step(options, *written, faults) : drive::Step{};
+  const Limits limits = read_limits(options.limits, faults);
   faults.require_none();
 
+  LimitedWork work(limits);
   ComparisonReport report;
   {
-    TerminalProgress progress("Comparing");
+    TerminalProgress progress(work, "Comparing");
     report = compare_sensors(written->drive, places, step, {written->angle, provenance}, progress);
   }
   Extras extras;
-  for (const Plot& plot : plots) {
-    extras.make([&] { write_file(plot.file, draw_comparison(report, plot.format)); });
-  }
-  write_file("-", options.format == "json" ? comparison_json(report) : comparison_text(report));
+  extras.print(options.format == "json" ? comparison_json(report) : comparison_text(report));
   const bool decided =
       std::none_of(report.cases.begin(), report.cases.end(), [](const SensorCase& one) {
         return one.report.answer.verdict == Verdict::undecided || !one.response.is_whole;
       });
-  return extras.status(decided ? ExitStatus::done : ExitStatus::undecided);
+  const ExitStatus status = end_work(work, decided ? ExitStatus::done : ExitStatus::undecided,
+                                     "searches are not complete, or not begun");
+  for (const Plot& plot : plots) {
+    extras.make([&] { write_file(plot.file, draw_comparison(report, plot.format)); });
+  }
+  return extras.status(status);
 }
 
 }  // namespace
@@ -122,6 +128,7 @@ void add_compare_command(Command& app, Action& action) {
   command->add_option("--format", options->format, "Choose the format: text (default) or json")
       ->type_name("FORMAT");
   add_plot_option(*command, options->plots, "Draw time=FILE, the step responses;");
+  add_limit_options(*command, options->limits);
   command->footer(help_footer(compare_examples));
   set_action(*command, action, options, run);
 }

@@ -5,6 +5,7 @@
 #include "command.hpp"
 #include "gearlash/analyse.hpp"
 #include "input/units.hpp"
+#include "limit_options.hpp"
 #include "machine_faults.hpp"
 #include "output/describe_report.hpp"
 #include "output/output_file.hpp"
@@ -28,6 +29,7 @@ constexpr char describe_explanation[] =
 struct DescribeOptions {
   ServoOptions servo;
   std::string format = "text";
+  LimitOptions limits;
   std::vector<std::string> plots;
   std::string part;
 };
@@ -42,8 +44,9 @@ drive::DescribedPart part_of(const std::string& name) {
   return DescribedPart::gap_load_held;
 }
 
-Answer exact_answer(const Drive& drive) {
-  TerminalProgress progress("Searching");
+/// The answer of limit-cycle.
+Answer searched(const Drive& drive, LimitedWork& work) {
+  TerminalProgress progress(work, "Searching");
   return analyse(drive, {.ceiling = true, .quantization = true}, progress);
 }
 
@@ -108,20 +111,24 @@ ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
   const std::vector<Plot> plots = read_plots(options.plots, {"nyquist"}, faults);
   check_part(options, faults);
   const std::optional<WrittenDrive> written = resolve_drive(options.servo, files_of(plots), faults);
+  const Limits limits = read_limits(options.limits, faults);
   faults.require_none();
 
-  const Answer answer = exact_answer(written->drive);
+  LimitedWork work(limits);
+  const Answer answer = searched(written->drive, work);
   const DescribeReport report =
       describe_report_of(written->drive, answer, written->angle, provenance);
   Extras extras;
+  extras.print(options.format == "json" ? describe_json(report)
+                                        : with_bold_headline(describe_text(report)));
+  const bool decided = answer.verdict != Verdict::undecided;
+  if (!decided) report_lines("the exact answer is undecided");
+  const ExitStatus status = end_work(work, decided ? ExitStatus::done : ExitStatus::undecided,
+                                     "the search is not complete");
   for (const Plot& plot : plots) {
     extras.make([&] { write_file(plot.file, draw(report, options, plot.format)); });
   }
-  write_file("-", options.format == "json" ? describe_json(report)
-                                           : with_bold_headline(describe_text(report)));
-  if (answer.verdict != Verdict::undecided) return extras.status(ExitStatus::done);
-  report_lines("the exact answer is undecided");
-  return extras.status(ExitStatus::undecided);
+  return extras.status(status);
 }
 
 }  // namespace
@@ -141,6 +148,7 @@ void add_describe_command(Command& app, Action& action) {
                    "coulomb-friction, dead-band or relay; default the first part in\n"
                    "the loop")
       ->type_name("PART");
+  add_limit_options(*command, options->limits);
   command->footer(describe_explanation + help_footer(describe_examples));
   set_action(*command, action, options, run);
 }

@@ -1,4 +1,6 @@
 // gearlash design: the changes of a drive that meet a target.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -10,6 +12,7 @@
 #include "command.hpp"
 #include "input/axis_text.hpp"
 #include "input/target_text.hpp"
+#include "limit_options.hpp"
 #include "machine_faults.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/design_report.hpp"
@@ -46,7 +49,14 @@ struct DesignOptions {
   std::string cost = "bandwidth";
   std::vector<std::string> plots;
   std::string format = "text";
+  LimitOptions limits;
 };
+
+/// "2 of 5 parameters are not searched to the end".
+std::string unknown_text(std::size_t known, std::size_t all) {
+  return fmt::format("{} of {} parameters {} not searched to the end", all - known, all,
+                     all - known == 1 ? "is" : "are");
+}
 
 /// Reads hyphens as underscores: "gear-ratio" is "gear_ratio".
 std::vector<std::string> read_parameters(const std::string& field,
@@ -114,12 +124,14 @@ std::string draw(const RegionMapTask& task, const Region& region, PictureFormat 
 }
 
 std::vector<FeasibleValues> work_out(const ChangeableDrive& drive, const Target& target,
-                                     const std::vector<std::string>& parameters) {
-  TerminalProgress progress("Design");
+                                     const std::vector<std::string>& parameters,
+                                     LimitedWork& work) {
+  TerminalProgress progress(work, "Design");
   std::vector<FeasibleValues> answers;
   for (const std::string& parameter : parameters) {
-    progress.go_on(static_cast<double>(answers.size()) / static_cast<double>(parameters.size()));
-    answers.push_back(feasible_values(drive, parameter, target));
+    ProgressPart part(progress, answers.size(), parameters.size());
+    answers.push_back(feasible_values(drive, parameter, target, part));
+    if (answers.back().stopped) break;
   }
   return answers;
 }
@@ -127,6 +139,7 @@ std::vector<FeasibleValues> work_out(const ChangeableDrive& drive, const Target&
 ExitStatus run_closed_form(const DesignOptions& options, const Target& target,
                            const WrittenDrive& written, const std::vector<Plot>& plots,
                            const Provenance& provenance, Faults& faults) {
+  const Limits limits = read_limits(options.limits, faults);
   const ChangeableDrive drive(closed_form_drive(written, options.servo));
   std::vector<std::string> parameters =
       read_parameters("--parameters", options.parameters, drive, faults);
@@ -134,10 +147,11 @@ ExitStatus run_closed_form(const DesignOptions& options, const Target& target,
   faults.require_none();
   if (parameters.empty()) parameters = region.axes;
   if (parameters.empty()) parameters = drive.usual_names();
+  LimitedWork work(limits);
   const DesignReport report{.drive = drive,
                             .target_text = options.target,
                             .target = target,
-                            .answers = work_out(drive, target, parameters),
+                            .answers = work_out(drive, target, parameters, work),
                             .angle = written.angle,
                             .is_normalized = is_normalized(written.drive),
                             .provenance = provenance};
@@ -147,11 +161,16 @@ ExitStatus run_closed_form(const DesignOptions& options, const Target& target,
                           .cost = region.cost,
                           .angle = written.angle};
   Extras extras;
+  extras.print(options.format == "json" ? design_json(report) : design_text(report));
+  const std::size_t known = static_cast<std::size_t>(
+      std::count_if(report.answers.begin(), report.answers.end(),
+                    [](const FeasibleValues& values) { return !values.stopped; }));
+  const ExitStatus status =
+      end_work(work, ExitStatus::done, unknown_text(known, parameters.size()));
   for (const Plot& plot : plots) {
     extras.make([&] { write_file(plot.file, draw(map, region, plot.format)); });
   }
-  write_file("-", options.format == "json" ? design_json(report) : design_text(report));
-  return extras.status(ExitStatus::done);
+  return extras.status(status);
 }
 
 // ---- drives that are searched -------------------------------------------------------------------
@@ -160,8 +179,8 @@ std::vector<Axis> read_axes(const DesignOptions& options, const Drive& drive, Fa
   std::vector<Axis> axes;
   for (const std::string& text :
        options.parameters.empty() ? usual_parameters(drive) : options.parameters) {
-    axes.push_back(
-        faults.collect([&] { return read_axis_or_name("--parameters", text, drive); }, Axis{}));
+    axes.push_back(collect_axis(
+        [&](auto* out) { return read_axis_or_name("--parameters", text, drive, out); }, faults));
   }
   if (!options.plots.empty()) {
     faults.add({"--plot", options.plots.front(),
@@ -176,29 +195,32 @@ ExitStatus run_searched(const DesignOptions& options, const Target& target,
                         const WrittenDrive& written, const Provenance& provenance, Faults& faults) {
   const Drive& drive = written.drive;
   const std::vector<Axis> axes = read_axes(options, drive, faults);
+  const Limits limits = read_limits(options.limits, faults);
   faults.require_none();
+  LimitedWork work(limits);
   SearchedDesignReport report{.drive = drive,
                               .target_text = options.target,
                               .target = target,
-                              .present = with_value(drive, nullptr, 0.0),
                               .angle = written.angle,
                               .provenance = provenance};
-  bool is_stopped = false;
+  std::size_t known = 0;
   {
-    TerminalProgress progress("Design");
+    TerminalProgress progress(work, "Design");
+    report.present = with_value(drive, nullptr, 0.0, progress);
     for (const Axis& axis : axes) {
       ProgressPart part(progress, report.parameters.size(), axes.size());
       SearchedParameter found{.values = feasible_values(drive, axis, target, part)};
       for (const double value : found.values.nearest_of_each()) {
-        found.results.push_back(with_value(drive, &axis, value));
+        found.results.push_back(with_value(drive, &axis, value, part));
       }
-      is_stopped = found.values.stopped;
       report.parameters.push_back(std::move(found));
-      if (is_stopped) break;
+      if (!work.go_on()) break;
+      ++known;
     }
   }
-  write_file("-", options.format == "json" ? design_json(report) : design_text(report));
-  return is_stopped ? ExitStatus::undecided : ExitStatus::done;
+  Extras extras;
+  extras.print(options.format == "json" ? design_json(report) : design_text(report));
+  return extras.status(end_work(work, ExitStatus::done, unknown_text(known, axes.size())));
 }
 
 ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
@@ -259,6 +281,7 @@ void add_design_command(Command& app, Action& action) {
                   "Draw region=FILE, where the parameters of --vary meet the\ntarget;");
   command->add_option("--format", options->format, "Choose the format: text (default) or json")
       ->type_name("FORMAT");
+  add_limit_options(*command, options->limits);
   command->footer(help_footer(design_examples));
   set_action(*command, action, options, run);
 }

@@ -95,7 +95,7 @@ std::vector<Axis> read_axes(const std::vector<AxisText>& texts, const Drive& dri
                             Faults& faults) {
   std::vector<Axis> axes;
   for (const AxisText& text : texts) {
-    Axis axis = faults.collect([&] { return read_axis(text, drive); }, Axis{});
+    Axis axis = collect_axis([&](auto* out) { return read_axis(text, drive, out); }, faults);
     if (!axis.values.empty()) axes.push_back(std::move(axis));
   }
   return axes;
@@ -188,7 +188,7 @@ std::vector<Quantity> quantities_of(const GridTask& task) {
   return all;
 }
 
-/// Opens a file before the work, so that a file which cannot be written fails at once.
+/// Opens a file before the work, so that it is known to be writable.
 std::unique_ptr<OutputFile> opened(const std::string& file) {
   return file.empty() ? nullptr : std::make_unique<OutputFile>(file);
 }
@@ -221,6 +221,7 @@ void add_grid_options(Command& command, GridOptions& options, const std::string&
                    "Prove each verdict of the closed form with plastic contact by\n"
                    "interval arithmetic; verdicts that it cannot prove are undecided");
   add_servo_or_drive_options(command, options.servo);
+  add_limit_options(command, options.limits);
 }
 
 GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption>& typed_axes,
@@ -230,6 +231,7 @@ GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption
   GridTask task;
   task.verb = verb;
   task.quantity = read_quantity(options.quantity, faults);
+  task.limits = read_limits(options.limits, faults);
   read_outputs(options, kinds, task, faults);
   std::vector<FileUse> outputs = files_of(task.plots);
   if (!task.table.empty()) outputs.push_back({"--output", task.table});
@@ -293,13 +295,13 @@ GridCount write_netcdf(const GridTask& task, const Provenance& provenance, const
 
 }  // namespace
 
-ExitStatus make_grid_files(const GridTask& task, const Provenance& provenance,
+ExitStatus make_grid_files(const GridTask& task, LimitedWork& work, const Provenance& provenance,
                            const GridPicture& draw) {
   const std::unique_ptr<OutputFile> output = opened(task.table);
   std::vector<std::unique_ptr<OutputFile>> pictures;
   for (const Plot& plot : task.plots) pictures.push_back(opened(plot.file));
   std::optional<TerminalProgress> progress;
-  progress.emplace(task.verb == "map" ? "Map" : "Chart", task.grid.size(), "points");
+  progress.emplace(work, task.verb == "map" ? "Map" : "Chart", task.grid.size(), "points");
   GridTable table{.grid = task.grid, .provenance = provenance, .angle = task.angle};
   GridCount count;
   Extras extras;
@@ -310,16 +312,16 @@ ExitStatus make_grid_files(const GridTask& task, const Provenance& provenance,
   };
   if (task.plots.empty() && ending_of(task.table) == ".nc") {
     count = write_netcdf(task, provenance, *output, *progress);
-    commit(*output);
+    if (!work.is_interrupted()) commit(*output);
   } else {
     table.table = Table(task.grid.size(), quantities_of(task));
     count = evaluate(task.grid, GridPoints(task.grid), 0, task.grid.size(), columns_of(table.table),
                      *progress);
     if (task.has_boundary) {
-      progress.emplace("Borders");
+      progress.emplace(work, "Borders");
       add_borders(table, *progress);
     }
-    if (output) {
+    if (output && !work.is_interrupted()) {
       extras.make([&] {
         write_table(task, table, count, *output);
         commit(*output);
@@ -327,14 +329,19 @@ ExitStatus make_grid_files(const GridTask& task, const Provenance& provenance,
     }
   }
   progress.reset();  // wiped before anything is printed
+  const ExitStatus status =
+      end_work(work, ExitStatus::done,
+               count.points() < task.grid.size()
+                   ? fmt::format("{} of {} points are known", count.points(), task.grid.size())
+                   : "borders are missing");
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     extras.make([&] {
       pictures[i]->write(draw(table, task.plots[i].format));
       commit(*pictures[i]);
     });
   }
-  write_file("-", (made.empty() ? "" : made + ": ") + solved_text(count) + "\n");
-  return extras.status(ExitStatus::done);
+  extras.print((made.empty() ? "" : made + ": ") + solved_text(count) + "\n");
+  return extras.status(status);
 }
 
 }  // namespace gearlash::cli

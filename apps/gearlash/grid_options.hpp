@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "command.hpp"
+#include "limit_options.hpp"
 #include "output/grid_netcdf.hpp"
 #include "output/grid_table.hpp"
 #include "plot_option.hpp"
@@ -21,6 +22,7 @@ struct GridOptions {
   std::string output;
   std::vector<std::string> plots;
   bool proved = false;
+  LimitOptions limits;
 };
 
 /// An axis as typed after its option, "--x".
@@ -46,6 +48,7 @@ struct GridTask {
   bool has_boundary = false;  ///< computes where hunting ends
   std::string table;          ///< file in .csv, .json or .nc; empty: none
   std::vector<Plot> plots;
+  Limits limits;
 };
 
 /// The task that the options describe. A normal form without a backlash has amplitudes in
@@ -60,8 +63,9 @@ std::string solved_text(const GridCount& count);
 using GridPicture = std::function<std::string(const GridTable&, PictureFormat)>;
 
 /// Evaluates the grid, writes its table, draws its pictures with `draw` and prints a summary. A
-/// picture that fails does not withhold the rest.
-ExitStatus make_grid_files(const GridTask& task, const Provenance& provenance,
+/// picture that fails does not withhold the rest. Points that a limit leaves out are undecided in
+/// the files; a signal leaves all files as they were.
+ExitStatus make_grid_files(const GridTask& task, LimitedWork& work, const Provenance& provenance,
                            const GridPicture& draw);
 
 }  // namespace gearlash::cli

@@ -10,6 +10,7 @@
 #include "command.hpp"
 #include "input/axis_text.hpp"
 #include "input/units.hpp"
+#include "limit_options.hpp"
 #include "machine_faults.hpp"
 #include "output/answer_report.hpp"
 #include "output/change_report.hpp"
@@ -41,8 +42,7 @@ struct LimitCycleOptions {
   ServoOptions servo;
   std::string format = "text";
   std::vector<std::string> plots;
-  std::string time_limit;
-  std::string memory_limit;
+  LimitOptions limits;
   std::string specification;
   std::string measured;
   bool brief = false;
@@ -51,23 +51,16 @@ struct LimitCycleOptions {
   bool sensitivities = false;
 };
 
-/// Limits of a search.
-struct Limits {
-  double seconds = infinity;
-  double bytes = infinity;  ///< of the whole tool
-};
-
 /// An answer with its report.
-struct Work {
+struct Result {
   Analysis analysis{};
   AnswerReport report{};
-  Limits limits{};
 };
 
-std::string draw_tornado(const Work& work, PictureFormat format) {
-  const BarChart chart = tornado_of(*work.report.sensitivity);
+std::string draw_tornado(const Result& result, PictureFormat format) {
+  const BarChart chart = tornado_of(*result.report.sensitivity);
   if (chart.bars.empty()) {
-    const std::string& why = work.report.sensitivity->reason;
+    const std::string& why = result.report.sensitivity->reason;
     throw InvalidInput(
         {{"--plot", "tornado",
           "must be left out: this drive has no sensitivities" + (why.empty() ? why : "; " + why),
@@ -76,28 +69,26 @@ std::string draw_tornado(const Work& work, PictureFormat format) {
   return draw_bar_chart(chart, format);
 }
 
-std::string draw_ceiling(const Work& work, PictureFormat format) {
-  const Ceiling& ceiling = *work.report.answer.ceiling;
+std::string draw_ceiling(const Result& result, PictureFormat format) {
+  const Ceiling& ceiling = *result.report.answer.ceiling;
   if (ceiling.terms.empty()) {
     const std::string why =
         ceiling.load ? "this drive has no gap, dry friction or encoder" : ceiling.reason;
     throw InvalidInput({{"--plot", "ceiling", "must be left out: " + why, ""}});
   }
-  return draw_bar_chart(ceiling_bars(work.report), format);
+  return draw_bar_chart(ceiling_bars(result.report), format);
 }
 
-std::string draw_phase(const Work& work, PictureFormat format) {
-  TerminalProgress progress("Basins");
-  progress.stop_after(work.limits.seconds);
-  progress.stop_above(work.limits.bytes);
-  return draw_phase_plane(phase_picture(work.report, work.analysis, progress), format);
+std::string draw_phase(const Result& result, PictureFormat format, LimitedWork& work) {
+  TerminalProgress progress(work, "Basins");
+  return draw_phase_plane(phase_picture(result.report, result.analysis, progress), format);
 }
 
-std::string draw(const Work& work, const Plot& plot) {
-  if (plot.kind == "tornado") return draw_tornado(work, plot.format);
-  if (plot.kind == "ceiling") return draw_ceiling(work, plot.format);
-  if (plot.kind == "phase") return draw_phase(work, plot.format);
-  return draw_time_response(response_picture(work.report, work.analysis), plot.format);
+std::string draw(const Result& result, const Plot& plot, LimitedWork& work) {
+  if (plot.kind == "tornado") return draw_tornado(result, plot.format);
+  if (plot.kind == "ceiling") return draw_ceiling(result, plot.format);
+  if (plot.kind == "phase") return draw_phase(result, plot.format, work);
+  return draw_time_response(response_picture(result.report, result.analysis), plot.format);
 }
 
 /// A verdict of hunting is undecided if the search found no amplitude.
@@ -115,9 +106,8 @@ bool is_decided(const Answer& answer) {
   }
 }
 
-/// The memory of the tool itself, bytes, and the least that may be a limit.
+/// The memory of the tool itself, bytes.
 constexpr double tool_bytes = 30e6;
-constexpr double least_memory_limit = 100e6;
 
 /// The parameters of the margins; none: the usual ones.
 std::vector<Axis> read_parameters(const LimitCycleOptions& options, const Drive& drive,
@@ -125,7 +115,8 @@ std::vector<Axis> read_parameters(const LimitCycleOptions& options, const Drive&
   constexpr char field[] = "--parameters";
   std::vector<Axis> axes;
   for (const std::string& text : options.parameters) {
-    axes.push_back(faults.collect([&] { return read_axis_or_name(field, text, drive); }, Axis{}));
+    axes.push_back(collect_axis(
+        [&](auto* out) { return read_axis_or_name(field, text, drive, out); }, faults));
   }
   if (!axes.empty() && !options.margins) {
     faults.add({field, options.parameters.front(), "must come with --margins", ""});
@@ -141,54 +132,40 @@ struct Changes {
 };
 
 /// Adds margins and sensitivities.
-void add_changes(Work& work, const Drive& drive, const Changes& wanted, const Limits& limits) {
+void add_changes(Result& result, const Drive& drive, const Changes& wanted, LimitedWork& work) {
   const bool is_closed = gearlash::closed_form_drive(drive).has_value();
   std::optional<ChangeableDrive> changeable;
   if (is_closed) changeable = ChangeableDrive(drive);
   // At the very ends of the ranges, rounding may put the ratios outside them.
   const bool is_sound = !is_closed || validate(changeable->drivetrain()).empty();
   if (wanted.margins && is_sound) {
-    TerminalProgress progress("Margins");
-    progress.stop_after(limits.seconds);
-    progress.stop_above(limits.bytes);
-    work.report.margin = wanted.axes.empty() ? hunting_margin(drive, progress)
-                                             : hunting_margin(drive, wanted.axes, progress);
-    if (wanted.axes.empty()) work.report.changeable = changeable;
+    TerminalProgress progress(work, "Margins");
+    result.report.margin = wanted.axes.empty() ? hunting_margin(drive, progress)
+                                               : hunting_margin(drive, wanted.axes, progress);
+    if (wanted.axes.empty()) result.report.changeable = changeable;
   }
   if (!wanted.sensitivities) return;
   if (!is_closed) {
-    work.report.sensitivity = searched_derivatives(drive, work.analysis);
+    result.report.sensitivity = searched_derivatives(drive, result.analysis);
   } else {
-    work.report.sensitivity = is_sound ? drive_sensitivity(*changeable) : Jacobian{};
+    result.report.sensitivity = is_sound ? drive_sensitivity(*changeable) : Jacobian{};
   }
 }
 
-Work analysed(const WrittenDrive& written, const Limits& limits, const Provenance& provenance) {
-  Work work;
-  work.limits = limits;
+Result analysed(const WrittenDrive& written, const Provenance& provenance, LimitedWork& work) {
+  Result result;
   {
-    TerminalProgress progress("Searching");
-    progress.stop_after(limits.seconds);
-    progress.stop_above(limits.bytes);
+    TerminalProgress progress(work, "Searching");
     Wanted wanted{.ceiling = true, .quantization = true};
     // A third for a motion, what is made of it included, beside the tool itself.
-    const double for_motion = (limits.bytes - tool_bytes) / 3.0;
+    const double for_motion = (work.limits().bytes - tool_bytes) / 3.0;
     if (for_motion < static_cast<double>(wanted.motion_bytes)) {
       wanted.motion_bytes = static_cast<std::size_t>(for_motion);
     }
-    work.analysis = analyse_in_full(written.drive, wanted, progress);
+    result.analysis = analyse_in_full(written.drive, wanted, progress);
   }
-  work.report = report_of(written.drive, work.analysis.answer, written.angle, provenance);
-  return work;
-}
-
-/// "200 MB", in bytes.
-double read_memory(const std::string& text) {
-  const std::optional<double> bytes = bytes_of(text);
-  if (!bytes || !(*bytes >= least_memory_limit)) {
-    refuse("--memory-limit", text, "must be a size of at least 100 MB: \"200 MB\", \"1 GiB\"");
-  }
-  return *bytes;
+  result.report = report_of(written.drive, result.analysis.answer, written.angle, provenance);
+  return result;
 }
 
 double read_specification(const std::string& text) {
@@ -220,10 +197,10 @@ MeasuredHunting read_measured(const std::string& text) {
   return measured;
 }
 
-std::string printed(const Work& work, const LimitCycleOptions& options) {
-  if (options.format == "json") return answer_json(work.report);
-  if (options.brief) return headline(work.report) + "\n";
-  return with_bold_headline(answer_text(work.report));
+std::string printed(const Result& result, const LimitCycleOptions& options) {
+  if (options.format == "json") return answer_json(result.report);
+  if (options.brief) return headline(result.report) + "\n";
+  return with_bold_headline(answer_text(result.report));
 }
 
 ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
@@ -232,13 +209,7 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
   const std::vector<Plot> plots =
       read_plots(options.plots, {"phase", "time", "tornado", "ceiling"}, faults);
   const std::optional<WrittenDrive> written = resolve_drive(options.servo, files_of(plots), faults);
-  Limits limits;
-  if (!options.time_limit.empty()) {
-    limits.seconds = read_time("--time-limit", options.time_limit, faults);
-  }
-  if (!options.memory_limit.empty()) {
-    limits.bytes = faults.collect([&] { return read_memory(options.memory_limit); }, infinity);
-  }
+  const Limits limits = read_limits(options.limits, faults);
   std::optional<double> specification;
   if (!options.specification.empty()) {
     specification = faults.collect([&] { return read_specification(options.specification); },
@@ -254,23 +225,22 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
   if (written) changes.axes = read_parameters(options, written->drive, faults);
   faults.require_none();
 
-  const double begun = steady_seconds();
-  Work work = analysed(*written, limits, provenance);
-  work.report.specification = specification;
-  work.report.measured = measured;
-  if (changes.margins || changes.sensitivities) {
-    limits.seconds -= steady_seconds() - begun;
-    add_changes(work, written->drive, changes, limits);
-  }
+  LimitedWork work(limits);
+  Result result = analysed(*written, provenance, work);
+  result.report.specification = specification;
+  result.report.measured = measured;
+  if (changes.margins || changes.sensitivities) add_changes(result, written->drive, changes, work);
   Extras extras;
+  extras.print(printed(result, options));
+  const bool decided = is_decided(result.report.answer);
+  if (!decided && !work.is_stopped()) report_lines(headline(result.report));
+  const ExitStatus status =
+      end_work(work, decided ? ExitStatus::done : ExitStatus::undecided,
+               decided ? "margins or bounds are missing" : headline(result.report));
   for (const Plot& plot : plots) {
-    extras.make([&] { write_file(plot.file, draw(work, plot)); });
+    extras.make([&] { write_file(plot.file, draw(result, plot, work)); });
   }
-  write_file("-", printed(work, options));
-  const bool is_margin_stopped = work.report.margin && work.report.margin->stopped;
-  if (is_decided(work.report.answer) && !is_margin_stopped) return extras.status(ExitStatus::done);
-  report_lines(is_margin_stopped ? "The margins were stopped by a limit." : headline(work.report));
-  return extras.status(ExitStatus::undecided);
+  return extras.status(status);
 }
 
 }  // namespace
@@ -283,16 +253,7 @@ void add_limit_cycle_command(Command& app, Action& action) {
   command->add_option("--format", options->format, "Choose the format: text (default) or json")
       ->type_name("FORMAT");
   command->add_flag("--brief", options->brief, "Print the headline alone");
-  command
-      ->add_option("--time-limit", options->time_limit,
-                   "Stop a search after this time and print what is known by then, with\n"
-                   "exit status 1: \"30 s\"")
-      ->type_name("TIME");
-  command
-      ->add_option("--memory-limit", options->memory_limit,
-                   "Stop a search likewise once the tool has taken this much memory, 100 MB or\n"
-                   "more: \"200 MB\"")
-      ->type_name("SIZE");
+  add_limit_options(*command, options->limits);
   command
       ->add_option("--specification", options->specification,
                    "Add the widest backlash that provably keeps the load within this angle of\n"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "command.hpp"
@@ -15,18 +16,18 @@ void report_lines(const std::string& lines);
 /// and reports it by report_lines(). Other exceptions pass.
 bool is_within_means(const std::function<void()>& work);
 
-/// Pictures and files beside the answer. A failure is reported at once. It withholds neither the
-/// others nor the answer.
+/// The answer, then pictures and files beside it. A failure is reported at once, and does not
+/// withhold the others.
 class Extras {
  public:
+  /// On standard output.
+  void print(const std::string& answer);
   void make(const std::function<void()>& work);
   /// `answer`, unless an extra has failed.
-  ExitStatus status(ExitStatus answer) const {
-    return all_made_ ? answer : ExitStatus::beyond_means;
-  }
+  ExitStatus status(ExitStatus answer) const { return failure_.value_or(answer); }
 
  private:
-  bool all_made_ = true;
+  std::optional<ExitStatus> failure_;
 };
 
 }  // namespace gearlash::cli

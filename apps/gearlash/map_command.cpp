@@ -39,7 +39,8 @@ ExitStatus run(const MapOptions& options, const Provenance& provenance) {
       read_grid_task(options.grid, {{"--y", options.y}, {"--x", options.x}}, "map", {"map"});
   task.has_boundary = true;
   require_an_area(task);
-  return make_grid_files(task, provenance, [&](const GridTable& table, PictureFormat format) {
+  LimitedWork work(task.limits);
+  return make_grid_files(task, work, provenance, [&](const GridTable& table, PictureFormat format) {
     return draw_grid_map(table, task.quantity, format);
   });
 }

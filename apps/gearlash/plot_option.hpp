@@ -20,7 +20,7 @@ struct Plot {
 std::vector<Plot> read_plots(const std::vector<std::string>& typed,
                              const std::vector<std::string>& kinds, Faults& faults);
 
-/// The files that they name, for Faults::require_distinct().
+/// The files that they name, for resolve_drive().
 std::vector<FileUse> files_of(const std::vector<Plot>& plots);
 
 bool has_kind(const std::vector<Plot>& plots, const std::string& kind);

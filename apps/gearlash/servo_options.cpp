@@ -10,8 +10,10 @@
 #include "input/section_reader.hpp"
 #include "input/text_file.hpp"
 #include "input/units.hpp"
+#include "machine_faults.hpp"
 #include "model/parameters.hpp"
 #include "model/reduced_drive.hpp"
+#include "output/output_file.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -188,6 +190,23 @@ void Faults::require_distinct(std::vector<FileUse> others, const std::vector<Fil
   }
 }
 
+void Faults::require_writable(const std::vector<FileUse>& outputs) {
+  for (const FileUse& output : outputs) {
+    if (output.file.empty() || output.file == "-") continue;
+    const std::string why = why_unwritable(output.file);
+    if (why.empty()) continue;
+    add({output.use, shown(output.file, std::string::npos),
+         "must be a file that can be written (" + why + ")", ""});
+  }
+}
+
+Axis collect_axis(const std::function<Axis(std::string* left_out)>& read, Faults& faults) {
+  std::string left_out;
+  Axis axis = faults.collect([&] { return read(&left_out); }, Axis{});
+  report_lines(left_out);
+  return axis;
+}
+
 std::vector<FileUse> named_tables(Drive drive, const std::string& file) {
   std::vector<FileUse> tables;
   for (const Parameter& parameter : all_parameters_of_drives()) {
@@ -322,6 +341,7 @@ std::optional<WrittenDrive> resolve_drive(const ServoOptions& options,
   if (options.file == "-") inputs.push_back({"standard input", "/dev/stdin"});
   if (!options.file.empty()) inputs.push_back({"DRIVE.toml", options.file});
   faults.require_distinct(std::move(inputs), outputs);
+  faults.require_writable(outputs);
   return written;
 }
 

@@ -1,12 +1,14 @@
 // The servo that the command line describes: a file, options, or a file changed by options.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "command_line.hpp"
+#include "gearlash/grid.hpp"
 #include "input/drive_file.hpp"
 #include "input/units.hpp"
 
@@ -63,12 +65,17 @@ class Faults {
   /// Adds a fault for each output that is the same file as one of `others`, which are read, or as
   /// another output, because one would be lost. Empty names, "-" and devices are exempt.
   void require_distinct(std::vector<FileUse> others, const std::vector<FileUse>& outputs);
+  /// Adds a fault for each output that cannot be written.
+  void require_writable(const std::vector<FileUse>& outputs);
   bool none() const { return faults_.empty(); }
   void require_none() const { gearlash::require_none(faults_); }
 
  private:
   std::vector<Fault> faults_;
 };
+
+/// The axis that `read` returns. A line on standard error names the values that it left out.
+Axis collect_axis(const std::function<Axis(std::string* left_out)>& read, Faults& faults);
 
 /// A number in SI, or one with its unit ("50 ms"). Throws InvalidInput; "inf" is none.
 double read_si(std::string_view field, std::string_view text, const Dimension& dimension);
@@ -80,8 +87,9 @@ double read_time(const char* field, const std::string& text, Faults& faults);
 double read_share(const std::string& field, std::string text, Faults& faults);
 
 /// The drive as its user has it: the file, or the normal form of the options, with the settings of
-/// --set. Adds faults to `faults`, also those of Faults::require_distinct() for `outputs` beside
-/// every file that is read. Without faults there is a result, and it is valid.
+/// --set. Adds faults to `faults`, also those of `outputs`: Faults::require_distinct() beside every
+/// file that is read, and Faults::require_writable(). Without faults there is a result, and it is
+/// valid.
 std::optional<WrittenDrive> resolve_drive(const ServoOptions& options,
                                           const std::vector<FileUse>& outputs, Faults& faults);
 

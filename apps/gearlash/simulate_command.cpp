@@ -13,6 +13,7 @@
 #include "general/assemble/time_scale.hpp"
 #include "general/attractors/search_setting.hpp"
 #include "input/units.hpp"
+#include "limit_options.hpp"
 #include "machine_faults.hpp"
 #include "output/answer_report.hpp"
 #include "output/motion_report.hpp"
@@ -48,6 +49,7 @@ struct SimulateOptions {
   std::string format = "csv";
   std::vector<std::string> plots;
   std::string output = "-";
+  LimitOptions limits;
 };
 
 /// The task, in SI.
@@ -152,9 +154,10 @@ SimulateRequest read_task(const SimulateOptions& options, const std::vector<File
 }
 
 /// Reports faults of the span under the options that were typed.
-Motion simulated(const SimulateRequest& task, const SimulateOptions& options) {
+Motion simulated(const SimulateRequest& task, const SimulateOptions& options, LimitedWork& work) {
   try {
-    return simulate(task.written.drive, {.until = task.until, .start = task.start});
+    TerminalProgress progress(work, "Simulating");
+    return simulate(task.written.drive, {.until = task.until, .start = task.start}, progress);
   } catch (const InvalidInput& error) {
     std::vector<Fault> faults = error.faults();
     const auto name = [](Fault& fault, const char* path, const char* option,
@@ -194,8 +197,8 @@ struct KnownHunting {
   double period = 0.0;  ///< s; 0: none is known
 };
 
-KnownHunting hunting_of(const WrittenDrive& written) {
-  TerminalProgress progress("Searching");
+KnownHunting hunting_of(const WrittenDrive& written, LimitedWork& work) {
+  TerminalProgress progress(work, "Searching");
   const Answer answer = analyse(written.drive, {.proofs = false}, progress);
   KnownHunting known;
   known.headline = headline(report_of(written.drive, answer, written.angle, {}));
@@ -209,7 +212,7 @@ KnownHunting hunting_of(const WrittenDrive& written) {
 
 /// The motion until its hunting shows, unless --until was typed. Tables end earlier.
 Motion motion_to_draw(const SimulateRequest& task, const Motion& motion,
-                      const SimulateOptions& options, double hunting_period) {
+                      const SimulateOptions& options, double hunting_period, LimitedWork& work) {
   constexpr double periods = 8.0;
   const double until = task.until + periods * hunting_period;
   const double longest = 0.5 * most_periods_drawn * task.period;
@@ -217,17 +220,20 @@ Motion motion_to_draw(const SimulateRequest& task, const Motion& motion,
   if (options.until || motion.stop() != MotionStop::reached_end || shows || until > longest) {
     return motion;
   }
-  Motion longer = simulate(task.written.drive, {.until = until, .start = task.start});
-  return longer.events().size() > most_events_drawn ? motion : longer;
+  TerminalProgress progress(work, "Simulating");
+  Motion longer = simulate(task.written.drive, {.until = until, .start = task.start}, progress);
+  const bool is_drawn =
+      longer.stop() != MotionStop::stopped && longer.events().size() <= most_events_drawn;
+  return is_drawn ? longer : motion;
 }
 
 MotionPicture picture_of(const SimulateRequest& task, const Motion& motion,
-                         const SimulateOptions& options) {
-  const KnownHunting hunting = hunting_of(task.written);
+                         const SimulateOptions& options, LimitedWork& work) {
+  const KnownHunting hunting = hunting_of(task.written, work);
   return {.title = title_of(task),
           .subtitle = hunting.headline,
           .drive = task.written.drive,
-          .motions = {{.motion = motion_to_draw(task, motion, options, hunting.period)}},
+          .motions = {{.motion = motion_to_draw(task, motion, options, hunting.period, work)}},
           .angle = task.written.angle,
           .period = task.period,
           .hunting_period = hunting.period};
@@ -240,9 +246,9 @@ std::string draw(const MotionPicture& picture, const Plot& plot) {
 
 // ---- the command --------------------------------------------------------------------------------
 
-void write_table(const MotionReport& report, const SimulateOptions& options) {
+void write_table(const MotionReport& report, const SimulateOptions& options, LimitedWork& work) {
   OutputFile output(options.output);
-  TerminalProgress progress("Writing");
+  TerminalProgress progress(work, "Writing");
   const TextSink sink = [&](std::string_view text) { output.write(text); };
   if (options.format == "json") {
     write_motion_json(report, sink, progress);
@@ -251,7 +257,8 @@ void write_table(const MotionReport& report, const SimulateOptions& options) {
   } else {
     write_samples_csv(report, sink, progress);
   }
-  output.commit();
+  // A signal leaves a file as it was.
+  if (options.output == "-" || !work.is_interrupted()) output.commit();
 }
 
 ExitStatus run(const SimulateOptions& options, const Provenance& provenance) {
@@ -260,26 +267,36 @@ ExitStatus run(const SimulateOptions& options, const Provenance& provenance) {
   const std::vector<Plot> plots = read_plots(options.plots, {"time", "phase"}, faults);
   std::vector<FileUse> outputs = files_of(plots);
   outputs.insert(outputs.begin(), {"--output", options.output});
+  const Limits limits = read_limits(options.limits, faults);
   const SimulateRequest task = read_task(options, outputs, faults);
-  const Motion motion = simulated(task, options);
+  LimitedWork work(limits);
+  const Motion motion = simulated(task, options, work);
   Extras extras;
+  extras.make([&] {
+    write_table({.drive = task.written.drive,
+                 .motion = motion,
+                 .until = task.until,
+                 .every = task.every,
+                 .provenance = provenance},
+                options, work);
+  });
+  const bool is_whole = motion.stop() == MotionStop::reached_end;
+  const std::string reached =
+      fmt::format("{} s of {} s", exact_text(motion.end_time()), exact_text(task.until));
+  if (!is_whole && !work.is_stopped()) {
+    report_lines("stopped at " + reached + ": " + motion.stop_text());
+  }
+  const ExitStatus status = end_work(
+      work, is_whole ? ExitStatus::done : ExitStatus::undecided,
+      is_whole ? "the end of the table is missing" : "the motion is known up to " + reached);
   std::optional<MotionPicture> picture;
   for (const Plot& plot : plots) {
     extras.make([&] {
-      if (!picture) picture = picture_of(task, motion, options);
+      if (!picture) picture = picture_of(task, motion, options, work);
       write_file(plot.file, draw(*picture, plot));
     });
   }
-  write_table({.drive = task.written.drive,
-               .motion = motion,
-               .until = task.until,
-               .every = task.every,
-               .provenance = provenance},
-              options);
-  if (motion.stop() == MotionStop::reached_end) return extras.status(ExitStatus::done);
-  report_lines(fmt::format("stopped at {} s of {} s: {}", exact_text(motion.end_time()),
-                           exact_text(task.until), motion.stop_text()));
-  return extras.status(ExitStatus::undecided);
+  return extras.status(status);
 }
 
 void add_start_options(Command& command, SimulateOptions& options) {
@@ -333,6 +350,7 @@ void add_simulate_command(Command& app, Action& action) {
       ->add_option("--output", options->output,
                    "Write the table to this file; default standard output")
       ->type_name("FILE");
+  add_limit_options(*command, options->limits);
   command->footer(help_footer(simulate_examples));
   set_action(*command, action, options, run);
 }

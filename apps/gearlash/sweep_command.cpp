@@ -11,10 +11,10 @@
 #include "grid_options.hpp"
 #include "input/sweep_file.hpp"
 #include "input/units.hpp"
+#include "limit_options.hpp"
 #include "machine_faults.hpp"
 #include "output/output_file.hpp"
 #include "servo_options.hpp"
-#include "stop_request.hpp"
 #include "sweep_part.hpp"
 #include "sweep_run.hpp"
 #include "terminal.hpp"
@@ -43,6 +43,7 @@ struct SweepOptions {
   std::string file;
   std::string output;
   bool resume = false;
+  LimitOptions limits;
 };
 
 void require_netcdf(const std::string& output, Faults& faults) {
@@ -67,20 +68,6 @@ void report_stop(std::size_t done, std::size_t points, const std::string& output
                         points, shown(output, std::string::npos)));
 }
 
-/// Progress that Ctrl-C stops.
-class StoppableProgress : public TerminalProgress {
- public:
-  StoppableProgress(std::size_t points, const StopRequest& stop)
-      : TerminalProgress("Sweep", points, "points"), stop_(stop) {}
-
-  bool go_on(double share, std::size_t bytes = 0) override {
-    return TerminalProgress::go_on(share, bytes) && !stop_.is_made();
-  }
-
- private:
-  const StopRequest& stop_;
-};
-
 ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
   Faults faults;
   const SweepFile sweep =
@@ -93,18 +80,22 @@ ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
   std::vector<FileUse> inputs = named_tables(sweep.grid.drive, options.file);
   inputs.push_back({"SWEEP.toml", options.file});
   faults.require_distinct(std::move(inputs), outputs);
+  faults.require_writable({outputs.front()});
+  const Limits limits = read_limits(options.limits, faults);
   faults.require_none();
 
-  const StopRequest stop;
-  std::optional<StoppableProgress> progress;
-  progress.emplace(sweep.grid.size(), stop);
+  for (const std::string& line : sweep.left_out) report_lines(line);
+  LimitedWork work(limits);
+  std::optional<TerminalProgress> progress;
+  progress.emplace(work, "Sweep", sweep.grid.size(), "points");
   const GridCount done =
       run_sweep(sweep, provenance_of(options, provenance), options.output,
                 options.resume ? SweepStart::resume : SweepStart::anew, *progress);
   progress.reset();  // wiped before anything is printed
   if (done.points() < sweep.grid.size()) {
     report_stop(done.points(), sweep.grid.size(), options.output);
-    stop.obey();
+    work.end();
+    return ExitStatus::undecided;
   }
   write_file("-", shown(options.output, std::string::npos) + ": " + solved_text(done) + "\n");
   return ExitStatus::done;
@@ -123,6 +114,7 @@ void add_sweep_command(Command& app, Action& action) {
       ->type_name("FILE")
       ->required();
   command->add_flag("--resume", options->resume, "Continue a sweep that was stopped or killed");
+  add_limit_options(*command, options->limits);
   command->footer(sweep_explanation + help_footer(sweep_examples));
   set_action(*command, action, options, run);
 }

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <string_view>
 #include <utility>
 
@@ -25,19 +24,6 @@ bool takes_escapes(int descriptor) {
   const char* terminal = std::getenv("TERM");
   return isatty(descriptor) == 1 && (no_color == nullptr || *no_color == '\0') &&
          terminal != nullptr && std::string_view(terminal) != "dumb";
-}
-
-/// The most bytes of memory that the tool has taken so far. (getrusage() would count those of the
-/// program that started it.) 0 where the system does not say.
-double peak_memory() {
-  std::ifstream status("/proc/self/status");
-  const std::string peak = "VmHWM:";
-  constexpr double bytes_in_unit = 1024.0;
-  for (std::string word; status >> word;) {
-    double units = 0.0;
-    if (word == peak && status >> units) return bytes_in_unit * units;
-  }
-  return 0.0;
 }
 
 }  // namespace
@@ -68,8 +54,10 @@ double steady_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-TerminalProgress::TerminalProgress(std::string what, std::size_t count, std::string name)
-    : what_(std::move(what)),
+TerminalProgress::TerminalProgress(LimitedWork& work, std::string what, std::size_t count,
+                                   std::string name)
+    : work_(work),
+      what_(std::move(what)),
       count_(count),
       name_(std::move(name)),
       is_watched_(isatty(STDERR_FILENO) == 1),
@@ -79,8 +67,8 @@ TerminalProgress::TerminalProgress(std::string what, std::size_t count, std::str
 bool TerminalProgress::go_on(double share, std::size_t /*bytes*/) {
   if (!has_begun_) begun_ = share;
   has_begun_ = true;
+  if (!work_.go_on()) return false;
   const Clock::time_point now = Clock::now();
-  if (now >= end_ || (most_memory_ < infinity && peak_memory() > most_memory_)) return false;
   if (!is_watched_ || now < next_) return true;
   next_ = now + refresh;
   const double seconds = std::chrono::duration<double>(now - start_).count();
@@ -91,12 +79,6 @@ bool TerminalProgress::go_on(double share, std::size_t /*bytes*/) {
   fmt::print(stderr, "\r{}", line);
   std::fflush(stderr);
   return true;
-}
-
-void TerminalProgress::stop_after(double seconds) {
-  constexpr double longest = 1e9;  // s; more would overflow the clock
-  end_ = start_ + std::chrono::duration_cast<Clock::duration>(
-                      std::chrono::duration<double>(std::min(seconds, longest)));
 }
 
 TerminalProgress::~TerminalProgress() {

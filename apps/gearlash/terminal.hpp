@@ -4,8 +4,8 @@
 #include <chrono>
 #include <string>
 
-#include "base/special_numbers.hpp"
 #include "gearlash/progress.hpp"
+#include "limited_work.hpp"
 
 namespace gearlash::cli {
 
@@ -23,24 +23,22 @@ std::string progress_text(double share, double seconds, double things, const std
 double steady_seconds();
 
 /// A line on standard error with the progress of long work. It is shown only on a terminal and only
-/// after a second of work, and wiped at the end.
+/// after a second of work, and wiped at the end. It stops what the work's limits stop.
 class TerminalProgress : public Progress {
  public:
   /// Work on `count` things, such as "servos", is shown with its rate.
-  explicit TerminalProgress(std::string what, std::size_t count = 0, std::string name = "");
+  TerminalProgress(LimitedWork& work, std::string what, std::size_t count = 0,
+                   std::string name = "");
   ~TerminalProgress() override;
   TerminalProgress(const TerminalProgress&) = delete;
   TerminalProgress& operator=(const TerminalProgress&) = delete;
 
   /// A first call before any work gives what was done earlier.
   bool go_on(double share, std::size_t bytes = 0) override;
-  /// The work stops this many seconds after it began.
-  void stop_after(double seconds);
-  /// The work stops once the tool's memory has taken this many bytes.
-  void stop_above(double bytes) { most_memory_ = bytes; }
 
  private:
   using Clock = std::chrono::steady_clock;
+  LimitedWork& work_;
   std::string what_;
   std::size_t count_ = 0;  ///< of things; 0 if they are not counted
   std::string name_;
@@ -50,8 +48,6 @@ class TerminalProgress : public Progress {
   std::size_t width_ = 0;   ///< of the line that is shown
   Clock::time_point start_;
   Clock::time_point next_;
-  Clock::time_point end_ = Clock::time_point::max();
-  double most_memory_ = infinity;  ///< bytes
 };
 
 }  // namespace gearlash::cli

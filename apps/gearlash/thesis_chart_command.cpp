@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "base/progress_part.hpp"
 #include "closed_form/limit_cycle.hpp"
 #include "input/section_reader.hpp"
+#include "limit_options.hpp"
 #include "machine_faults.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/columns.hpp"
@@ -46,16 +48,15 @@ int read_figure_number(const std::string& text) {
   refuse("N", text, "must be the number of a figure: " + alternatives(names));
 }
 
-/// Computes the figure and draws it.
-std::string draw_figure(int number, PictureFormat format, Progress& progress) {
+LineChart figure_chart(int number, Progress& progress = no_progress()) {
   for (const auto& figure : thesis::thesis_phase_figures()) {
-    if (figure.number == number) return draw_line_chart(chart_of(figure), format);
+    if (figure.number == number) return chart_of(figure);
   }
   const auto& figures = thesis::thesis_figures();
   const auto figure = std::find_if(figures.begin(), figures.end(), [&](const auto& candidate) {
     return candidate.number == number;
   });
-  return draw_line_chart(chart_of(*figure, progress), format);
+  return chart_of(*figure, progress);
 }
 
 // --- chart-reading ---
@@ -133,38 +134,55 @@ void add_thesis_figure(Command& thesis, Action& action) {
         typed.output.empty() ? fmt::format("figure-{}.svg", number) : typed.output;
     const PictureFormat format =
         faults.collect([&] { return picture_format("--output", file); }, PictureFormat::svg);
+    faults.require_writable({{"--output", file}});
     faults.require_none();
-    TerminalProgress progress("Figure " + typed.number);
-    write_file(file, draw_figure(number, format, progress));
+    write_file(file, draw_line_chart(figure_chart(number), format));
     return ExitStatus::done;
   });
 }
 
 void add_thesis_all(Command& thesis, Action& action) {
-  const auto folder = std::make_shared<std::string>("thesis-figures");
+  struct Options {
+    std::string folder = "thesis-figures";
+    LimitOptions limits;
+  };
+  const auto options = std::make_shared<Options>();
   Command* command = thesis.add_subcommand("all", "Draw all figures into a folder, as SVG");
   command
-      ->add_option("--output", *folder,
+      ->add_option("--output", options->folder,
                    "Write into this folder, and make it if missing; default\nthesis-figures")
       ->type_name("DIR");
+  add_limit_options(*command, options->limits);
   command->footer(help_footer(figure_examples));
-  set_action(*command, action, folder, [](const std::string& name, const Provenance&) {
+  set_action(*command, action, options, [](const Options& typed, const Provenance&) {
+    Faults faults;
+    const Limits limits = read_limits(typed.limits, faults);
+    faults.require_none();
+    const std::filesystem::path folder = typed.folder;
     std::error_code error;
-    std::filesystem::create_directories(name, error);
+    std::filesystem::create_directories(folder, error);
     if (error) {
       throw InvalidInput(
-          {{"--output", shown(name),
+          {{"--output", shown(typed.folder),
             "must be a folder that exists or can be made (" + error.message() + ")", ""}});
     }
-    TerminalProgress progress("Figures");
     const std::vector<int> numbers = figure_numbers();
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-      ProgressPart part(progress, i, numbers.size());
-      const std::filesystem::path file =
-          std::filesystem::path(name) / fmt::format("figure-{}.svg", numbers[i]);
-      write_file(file.string(), draw_figure(numbers[i], PictureFormat::svg, part));
+    const auto file = [&](std::size_t i) {
+      return (folder / fmt::format("figure-{}.svg", numbers[i])).string();
+    };
+    faults.require_writable({{"--output", file(0)}});
+    faults.require_none();
+    LimitedWork work(limits);
+    TerminalProgress progress(work, "Figures");
+    std::size_t drawn = 0;
+    while (drawn < numbers.size()) {
+      ProgressPart part(progress, drawn, numbers.size());
+      const LineChart chart = figure_chart(numbers[drawn], part);
+      if (!work.go_on()) break;
+      write_file(file(drawn++), draw_line_chart(chart, PictureFormat::svg));
     }
-    return ExitStatus::done;
+    return end_work(work, ExitStatus::done,
+                    fmt::format("{} of {} figures are drawn", drawn, numbers.size()));
   });
 }
 
@@ -190,6 +208,7 @@ void add_thesis_extension(Command& thesis, Action& action) {
   struct Options {
     std::string number;
     std::string output;
+    LimitOptions limits;
   };
   const auto options = std::make_shared<Options>();
   Command* command = thesis.add_subcommand(
@@ -201,6 +220,7 @@ void add_thesis_extension(Command& thesis, Action& action) {
       ->add_option("--output", options->output,
                    "Write this picture, .svg, .png or .pdf; default extension-N.svg")
       ->type_name("FILE");
+  add_limit_options(*command, options->limits);
   command->footer(help_footer(extension_examples));
   set_action(*command, action, options, [](auto& typed, const Provenance&) {
     Faults faults;
@@ -212,14 +232,22 @@ void add_thesis_extension(Command& thesis, Action& action) {
         typed.output.empty() ? "extension-" + typed.number + ".svg" : typed.output;
     const PictureFormat format =
         faults.collect([&] { return picture_format("--output", file); }, PictureFormat::svg);
+    faults.require_writable({{"--output", file}});
+    const Limits limits = read_limits(typed.limits, faults);
     faults.require_none();
-    TerminalProgress progress("Extension " + typed.number);
-    const thesis::Extension extension = thesis::extension(std::stoi(typed.number), progress);
+    LimitedWork work(limits);
+    std::optional<TerminalProgress> progress;
+    progress.emplace(work, "Extension " + typed.number);
+    const thesis::Extension extension = thesis::extension(std::stoi(typed.number), *progress);
+    progress.reset();  // wiped before anything is printed
     Extras extras;
-    extras.make([&] { write_file(file, draw_line_chart(extension.chart, format)); });
-    write_file("-", wrapped(fmt::format("{}. {}", extension.number, extension.wish)) + "\n" +
-                        wrapped(extension.lesson));
-    return extras.status(ExitStatus::done);
+    extras.print(wrapped(fmt::format("{}. {}", extension.number, extension.wish)) + "\n" +
+                 wrapped(extension.lesson));
+    const ExitStatus status = end_work(work, ExitStatus::done, "the chart is not drawn");
+    if (!work.is_stopped()) {
+      extras.make([&] { write_file(file, draw_line_chart(extension.chart, format)); });
+    }
+    return extras.status(status);
   });
 }
 

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "closed_form/limit_cycle.hpp"
+#include "limit_options.hpp"
 #include "machine_faults.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/output_file.hpp"
@@ -38,6 +39,8 @@ std::string run_text(const NormalizedServo& servo, const thesis::SettledCycle& c
     text += "  no result: its step is too long for this servo, so the numbers grow without bound\n";
   } else if (!cycle.hunts) {
     text += "  no limit cycle: for 100 s the faces have not met\n";
+  } else if (cycle.cycles == 0) {
+    text += "  no result: too few cycles\n";
   } else {
     text += fmt::format("  amplitude  ±{} rad{}\n", significant(cycle.amplitude, 5),
                         cycle.settled ? "" : ", still changing");
@@ -54,7 +57,7 @@ std::string run_text(const NormalizedServo& servo, const thesis::SettledCycle& c
   const LimitCycle& one = exact.cycles.front();
   text += fmt::format("  amplitude  ±{} rad\n", significant(one.amplitude, 9));
   text += fmt::format("  period     {} s\n", significant(one.period, 9));
-  if (cycle.hunts) {
+  if (cycle.cycles > 0) {
     text += fmt::format("The program's amplitude is off by {:+.2f} %, its period by {:+.2f} %.\n",
                         100.0 * (cycle.amplitude / one.amplitude - 1.0),
                         100.0 * (cycle.period / one.period - 1.0));
@@ -88,6 +91,7 @@ std::string errors_text(const std::vector<thesis::ChartError>& errors) {
                                                  : "·");
     before = &error;
   }
+  if (per_cent.empty()) return text + "\n";
   std::sort(per_cent.begin(), per_cent.end());
   return text + fmt::format(
                     "\n\n{} servos; {} hunt in both: median {:+.1f} %, from {:+.1f} "
@@ -131,8 +135,8 @@ struct AllRuns {
   std::string effort;  ///< of the emulated machine, a line
 };
 
-AllRuns run_all(bool on_machine) {
-  TerminalProgress progress("Charts");
+AllRuns run_all(bool on_machine, LimitedWork& work) {
+  TerminalProgress progress(work, "Charts");
   if (!on_machine) {
     const auto run = [](const thesis::ProgramParameters& parameters) {
       return thesis::run_until_settled(parameters);
@@ -159,28 +163,44 @@ AllRuns run_all(bool on_machine) {
                   std::round(seconds_of_1960 * static_cast<double>(errors.size()) / seconds))};
 }
 
+thesis::SettledCycle settled(const thesis::ProgramParameters& parameters, bool on_machine,
+                             LimitedWork& work) {
+  TerminalProgress progress(work, "Run");
+  return on_machine ? thesis::run_machine_until_settled(parameters, progress).cycle
+                    : thesis::run_until_settled(parameters, {}, progress);
+}
+
 struct RunOptions {
   ServoOptions servo;
   bool all = false;
   bool causes = false;
   bool machine = false;
   std::vector<std::string> plots;
+  LimitOptions limits;
 };
 
-ExitStatus run_program(const RunOptions& options, const Provenance&) {
-  if (options.all) {
-    Faults faults;
-    const std::vector<Plot> plots = read_plots(options.plots, {"errors"}, faults);
-    faults.require_none();
-    const AllRuns runs = run_all(options.machine);
-    Extras extras;
-    for (const Plot& plot : plots) {
-      extras.make(
-          [&] { write_file(plot.file, draw_cell_map(error_map(runs.errors), plot.format)); });
-    }
-    write_file("-", errors_text(runs.errors) + runs.effort);
-    return extras.status(ExitStatus::done);
+ExitStatus run_charts(const RunOptions& options) {
+  Faults faults;
+  const std::vector<Plot> plots = read_plots(options.plots, {"errors"}, faults);
+  faults.require_distinct({}, files_of(plots));
+  faults.require_writable(files_of(plots));
+  const Limits limits = read_limits(options.limits, faults);
+  faults.require_none();
+  LimitedWork work(limits);
+  const AllRuns runs = run_all(options.machine, work);
+  Extras extras;
+  extras.print(errors_text(runs.errors) + runs.effort);
+  const ExitStatus status = end_work(
+      work, ExitStatus::done,
+      fmt::format("{} of {} servos are run", runs.errors.size(), thesis::charted_servos().size()));
+  for (const Plot& plot : plots) {
+    extras.make([&] { write_file(plot.file, draw_cell_map(error_map(runs.errors), plot.format)); });
   }
+  return extras.status(status);
+}
+
+ExitStatus run_program(const RunOptions& options, const Provenance&) {
+  if (options.all) return run_charts(options);
   if (options.causes) {
     write_file("-", causes_text());
     return ExitStatus::done;
@@ -189,14 +209,15 @@ ExitStatus run_program(const RunOptions& options, const Provenance&) {
   if (typed.file.empty() && !typed.backlash) typed.backlash = "0.3";  // of the charts
   Faults faults;
   const std::optional<WrittenDrive> written = resolve_drive(typed, {}, faults);
+  const Limits limits = read_limits(options.limits, faults);
   faults.require_none();
+  LimitedWork work(limits);
   const NormalizedServo servo = closed_form_servo(closed_form_drive(*written, typed))->servo;
   const auto parameters = thesis::program_parameters(servo);
-  const thesis::SettledCycle cycle = options.machine
-                                         ? thesis::run_machine_until_settled(parameters).cycle
-                                         : thesis::run_until_settled(parameters);
+  const thesis::SettledCycle cycle = settled(parameters, options.machine, work);
   write_file("-", run_text(servo, cycle));
-  return cycle.settled ? ExitStatus::done : ExitStatus::undecided;
+  return end_work(work, cycle.settled ? ExitStatus::done : ExitStatus::undecided,
+                  "the amplitude had not settled");
 }
 
 }  // namespace
@@ -222,6 +243,7 @@ void add_thesis_run(Command& thesis, Action& action) {
   }
   causes->excludes(all);
   causes->excludes(machine);
+  add_limit_options(*command, options->limits);
   command->footer(help_footer(run_examples));
   set_action(*command, action, options, run_program);
 }

@@ -1,4 +1,6 @@
 // gearlash tolerance: how a production run behaves.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -8,6 +10,7 @@
 #include "analysis/design/toleranced_drive.hpp"
 #include "command.hpp"
 #include "input/target_text.hpp"
+#include "limit_options.hpp"
 #include "machine_faults.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/output_file.hpp"
@@ -46,6 +49,7 @@ struct ToleranceOptions {
   std::string yield;
   std::string format = "text";
   std::vector<std::string> plots;
+  LimitOptions limits;
 };
 
 constexpr std::pair<const char*, TolerancePicture> pictures[] = {
@@ -68,6 +72,7 @@ struct ToleranceRequest {
   double yield = 0.0;  ///< demanded; 0: none
   WorstSearch worst_search;
   std::vector<Plot> plots;
+  Limits limits;
 };
 
 /// Whether each sample is searched.
@@ -149,6 +154,7 @@ ToleranceRequest read_task(const ToleranceOptions& options) {
   if (is_searched && !options.yield.empty()) {
     faults.add({"--yield", options.yield, permitted_with_closed_form, ""});
   }
+  task.limits = read_limits(options.limits, faults);
   faults.require_none();
   task.drive = {is_searched ? written->drive : closed_form_drive(*written, options.servo),
                 written->tolerances};
@@ -162,44 +168,75 @@ ToleranceRequest read_task(const ToleranceOptions& options) {
   return task;
 }
 
-ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
-  const ToleranceRequest task = read_task(options);
+/// One question after another, up to the one at which the work is stopped.
+void work_out(const ToleranceRequest& task, LimitedWork& work, ToleranceReport& report) {
   std::optional<TerminalProgress> progress;
   const auto begin = [&](const char* what, std::size_t count,
                          const char* name = "drives") -> Progress& {
     progress.reset();
-    return progress.emplace(what, count, name);
+    return progress.emplace(work, what, count, name);
   };
-  ToleranceReport report{.drive = task.drive,
-                         .target_text = options.target,
-                         .demanded_yield = task.yield,
-                         .amplitude = task.questions.amplitude,
-                         .angle = task.angle,
-                         .provenance = provenance};
   const std::size_t samples = task.sampling.samples();
   report.study = task.error > 0.0 ? study_tolerances_to(task.error, task.drive, task.sampling,
                                                         task.questions, begin("Study", samples))
                                   : study_tolerances(task.drive, task.sampling, task.questions,
                                                      begin("Study", samples));
-  report.sensitivities =
+  if (work.is_stopped()) return;
+  SensitivityStudy sensitivities =
       study_sensitivities(task.drive, task.sampling, task.questions,
                           begin("Indices", samples * (task.drive.varied.size() + 2)));
+  if (work.is_stopped()) return;
+  report.sensitivities = std::move(sensitivities);
   if (task.yield > 0.0) {
-    report.backlash =
+    const auto backlash =
         widest_backlash(task.drive, {.target = task.questions.target, .yield = task.yield},
                         task.sampling, begin("Backlash", samples));
+    if (work.is_stopped()) return;
+    report.demanded_yield = task.yield;
+    report.backlash = backlash;
   }
-  report.worst = worst_corner(task.drive, task.worst_search, {},
-                              begin("Worst sample", 2 * task.worst_search.starts, "climbs"));
+  WorstCorner worst = worst_corner(task.drive, task.worst_search, {},
+                                   begin("Worst sample", 2 * task.worst_search.starts, "climbs"));
+  if (work.is_stopped()) return;
+  report.worst = std::move(worst);
   report.proved = ceiling_of_all(task.drive, task.questions.amplitude, begin("Proof", 0, ""));
-  progress.reset();
-  Extras extras;
-  for (const Plot& plot : task.plots) {
-    extras.make(
-        [&] { write_file(plot.file, draw_tolerances(report, picture_of(plot), plot.format)); });
+}
+
+/// What is not known where the work was stopped.
+std::string unknown_text(const ToleranceReport& report) {
+  const ToleranceStudy& study = report.study;
+  const std::size_t samples = study.sampling.samples();
+  if (study.stopped) {
+    return fmt::format("{} of {} samples are not answered", samples - study.answered, samples);
   }
-  write_file("-", options.format == "json" ? tolerance_json(report) : tolerance_text(report));
-  return extras.status(ExitStatus::done);
+  if (report.sensitivities.numbers.empty())
+    return "what decides is not known, nor the worst sample";
+  return report.worst.numbers.empty() ? "the worst sample is not known"
+                                      : "the bound of all samples is not the best";
+}
+
+ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
+  const ToleranceRequest task = read_task(options);
+  LimitedWork work(task.limits);
+  ToleranceReport report{.drive = task.drive,
+                         .target_text = options.target,
+                         .amplitude = task.questions.amplitude,
+                         .angle = task.angle,
+                         .provenance = provenance};
+  work_out(task, work, report);
+  report.stopped = work.is_stopped();
+  Extras extras;
+  extras.print(options.format == "json" ? tolerance_json(report) : tolerance_text(report));
+  const ExitStatus status = end_work(work, ExitStatus::done, unknown_text(report));
+  for (const Plot& plot : task.plots) {
+    extras.make([&] {
+      if (report.sensitivities.numbers.empty()) {
+        throw OutputError(plot.file + ": not drawn: the work was stopped before");
+      }
+      write_file(plot.file, draw_tolerances(report, picture_of(plot), plot.format));
+    });
+  }
+  return extras.status(status);
 }
 
 }  // namespace
@@ -243,6 +280,7 @@ void add_tolerance_command(Command& app, Action& action) {
                   "decides;");
   command->add_option("--format", options->format, "Choose the format: text (default) or json")
       ->type_name("FORMAT");
+  add_limit_options(*command, options->limits);
   command->footer(tolerance_explanation + help_footer(tolerance_examples));
   set_action(*command, action, options, run);
 }

@@ -11,6 +11,8 @@
 #include "gearlash/tune.hpp"
 #include "input/axis_text.hpp"
 #include "input/target_text.hpp"
+#include "limit_options.hpp"
+#include "machine_faults.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/output_file.hpp"
 #include "output/tune_report.hpp"
@@ -45,6 +47,7 @@ struct TuneOptions {
   std::string seed = "1960";
   std::string write;
   std::string format = "text";
+  LimitOptions limits;
 };
 
 /// The usual target in words.
@@ -61,6 +64,7 @@ struct TuneRequest {
   TuneEffort effort;
   std::string target_text;
   AngleUnit angle;
+  Limits limits;
 };
 
 Aim read_aim(const std::string& text, Faults& faults) {
@@ -89,6 +93,7 @@ TuneRequest read_task(const TuneOptions& options) {
   Faults faults;
   faults.require_choice("--format", options.format, {"text", "json"});
   read_numbers(options, task, faults);
+  task.limits = read_limits(options.limits, faults);
   const std::optional<WrittenDrive> written =
       resolve_drive(options.servo, {{"--write", options.write}}, faults);
   if (!written) faults.require_none();
@@ -97,8 +102,8 @@ TuneRequest read_task(const TuneOptions& options) {
   task.task.series = {drive, written->tolerances};
   for (const std::string& text :
        options.parameters.empty() ? usual_gains(drive) : options.parameters) {
-    task.task.tuned.push_back(
-        faults.collect([&] { return read_axis_to_tune("--parameters", text, drive); }, Axis{}));
+    task.task.tuned.push_back(collect_axis(
+        [&](auto* out) { return read_axis_to_tune("--parameters", text, drive, out); }, faults));
   }
   if (task.task.tuned.empty()) {
     faults.add({"--parameters", "", "must name what to tune: the drive has no gain above 0", ""});
@@ -127,20 +132,30 @@ ExitStatus run(const TuneOptions& options, const Provenance& provenance) {
                     .target_text = task.target_text,
                     .angle = task.angle,
                     .provenance = provenance};
+  LimitedWork work(task.limits);
   {
-    TerminalProgress progress("Tune");
+    TerminalProgress progress(work, "Tune");
     report.tuned = tune(task.task, task.effort, progress);
   }
   const auto lesser = without_integral_action(task.task);
-  if (!report.tuned.meets && lesser) {
-    TerminalProgress progress("Tune without integral action");
+  if (!report.tuned.meets && !work.is_stopped() && lesser) {
+    TerminalProgress progress(work, "Tune without integral action");
     report.without_integral = tune(*lesser, task.effort, progress);
   }
-  report.present = analyse(task.task.series.nominal, {.proofs = false});
-  report.nominal = analyse(report.tuned.drive, {.proofs = false});
-  if (!options.write.empty()) write_file(options.write, tuned_toml(report));
-  write_file("-", options.format == "json" ? tune_json(report) : tune_text(report));
-  return report.tuned.stopped ? ExitStatus::undecided : ExitStatus::done;
+  {
+    TerminalProgress progress(work, "Searching");
+    report.present = analyse(task.task.series.nominal, {.proofs = false}, progress);
+    report.nominal = analyse(report.tuned.drive, {.proofs = false}, progress);
+  }
+  Extras extras;
+  extras.print(options.format == "json" ? tune_json(report) : tune_text(report));
+  const ExitStatus status = end_work(
+      work, ExitStatus::done,
+      report.tuned.stopped ? "the values are the best by then" : "what these values do is not");
+  if (!options.write.empty()) {
+    extras.make([&] { write_file(options.write, tuned_toml(report)); });
+  }
+  return extras.status(status);
 }
 
 }  // namespace
@@ -184,6 +199,7 @@ void add_tune_command(Command& app, Action& action) {
       ->type_name("FILE");
   command->add_option("--format", options->format, "Choose the format: text (default) or json")
       ->type_name("FORMAT");
+  add_limit_options(*command, options->limits);
   command->footer(tune_explanation + help_footer(tune_examples));
   set_action(*command, action, options, run);
 }

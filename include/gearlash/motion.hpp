@@ -83,7 +83,7 @@ enum class MotionStop : std::uint8_t {
   zeno,         ///< events accumulate towards an instant
   chattering,   ///< unlimited events at one instant
   diverged,     ///< the state grows without bound
-  stopped       ///< by Progress, before the motion began
+  stopped       ///< by Progress
 };
 
 struct MotionSample {

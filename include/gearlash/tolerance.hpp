@@ -176,7 +176,10 @@ struct ToleranceStudy {
   std::size_t undecided = 0;           ///< samples of which it is not known whether they hunt
   std::size_t unknown_amplitudes = 0;  ///< samples whose amplitude is not known
   std::size_t refused = 0;  ///< draws that are no valid drive; 0 for a drive without faults()
-  bool stopped = false;     ///< by Progress: then nothing else holds
+  /// By Progress: then `hunting` and `yield` are the shares of the `answered` samples, and nothing
+  /// else holds.
+  bool stopped = false;
+  std::size_t answered = 0;  ///< samples of which it is known whether they hunt
 };
 
 /// Quasi-Monte Carlo over all varied parameters, on all cores, with the same bits for any number of

@@ -140,6 +140,8 @@ MotionStop stop_of(hybrid::StopReason reason) {
       return MotionStop::chattering;
     case hybrid::StopReason::diverged:
       return MotionStop::diverged;
+    case hybrid::StopReason::stopped:
+      return MotionStop::stopped;
   }
   return MotionStop::reached_end;
 }
@@ -160,6 +162,8 @@ std::string stop_text_of(const hybrid::Trajectory& trajectory) {
       return "endless events" + at;
     case hybrid::StopReason::diverged:
       return "the numbers grow without bound at " + exact_text(trajectory.end_time()) + " s";
+    case hybrid::StopReason::stopped:
+      return "by a limit";
   }
   return {};
 }
@@ -277,15 +281,18 @@ std::shared_ptr<Motion::Source> closed_form_motion(const ClosedFormServo& servo,
 }
 
 std::shared_ptr<Motion::Source> general_motion(const drive::ReducedDrive& reduced, const Span& span,
-                                               const Start& start, double gap) {
+                                               const Start& start, double gap, Progress& progress) {
   drive::DriveSystem system = drive::drive_system(reduced);
   const drive::ShaftStates shafts{.motor_position = start.load_position + gap,
                                   .motor_speed = start.load_speed + start.gap_speed,
                                   .load_position = start.load_position,
                                   .load_speed = start.load_speed};
-  hybrid::Trajectory trajectory = hybrid::simulate(
-      system.system, drive::drive_start(reduced, system, shafts),
-      {.until = span.until, .event_limit = span.most_events, .step_limit = most_steps_of_a_motion});
+  hybrid::Trajectory trajectory =
+      hybrid::simulate(system.system, drive::drive_start(reduced, system, shafts),
+                       {.until = span.until,
+                        .event_limit = span.most_events,
+                        .step_limit = most_steps_of_a_motion,
+                        .progress = &progress});
   return std::make_shared<GeneralMotion>(std::move(system), std::move(trajectory));
 }
 
@@ -326,7 +333,7 @@ Motion simulate(const Drive& drive, const Span& span, Progress& progress) {
   require_none(check.faults());
   std::shared_ptr<Motion::Source> source =
       servo ? closed_form_motion(*servo, reduced, span, start, gap)
-            : general_motion(reduced, span, start, gap);
+            : general_motion(reduced, span, start, gap, progress);
   source->asked_until =
       source->stop == MotionStop::reached_end ? span.until : std::min(span.until, source->end_time);
   return Motion(std::move(source));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gearlash/progress.hpp"
 #include "hybrid/hybrid_system.hpp"
 
 namespace gearlash::hybrid {
@@ -49,7 +50,8 @@ enum class StopReason {
          ///< the last one
   chattering,  ///< more events at one instant than there are ways through the modes; culprit() has
                ///< the transition
-  diverged     ///< numbers beyond 1e150
+  diverged,    ///< numbers beyond 1e150
+  stopped      ///< by the Progress of the options
 };
 
 struct SimulationOptions {
@@ -59,6 +61,7 @@ struct SimulationOptions {
   /// The motion stops after this many steps, of which each keeps the state. Of a motion that is
   /// observed steps are not kept, and not limited.
   std::size_t step_limit = std::numeric_limits<std::size_t>::max();
+  Progress* progress = nullptr;  ///< may stop the motion; nullptr: nothing may
 };
 
 /// Receives a motion piece by piece, so that nothing of it need be kept.

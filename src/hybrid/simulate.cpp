@@ -63,6 +63,10 @@ class Simulation {
   Trajectory run() {
     if (options_.event_limit == 0) stop(StopReason::event_limit);
     while (!stopped_) {
+      if (is_to_stop()) {
+        stop(StopReason::stopped);
+        break;
+      }
       if (fire_due_clocks()) continue;
       if (observer_ != nullptr && pass_ticks_over()) continue;
       if (now_.time >= options_.until) break;
@@ -85,6 +89,14 @@ class Simulation {
   }
 
  private:
+  /// Asks now and then.
+  bool is_to_stop() {
+    constexpr std::size_t between = 1024;
+    if (options_.progress == nullptr || ++rounds_ % between != 0) return false;
+    return !options_.progress->go_on((now_.time - options_.from) /
+                                     (options_.until - options_.from));
+  }
+
   // ---- clocks -----------------------------------------------------------------------------------
 
   /// Fires one clock that is due. False if none is.
@@ -401,7 +413,8 @@ class Simulation {
     stopped_ = true;
     trajectory_.stop_reason_ = reason;
     const std::vector<Event>& events = trajectory_.events_;
-    const bool is_limit = reason == StopReason::event_limit || reason == StopReason::step_limit;
+    const bool is_limit = reason == StopReason::event_limit || reason == StopReason::step_limit ||
+                          reason == StopReason::stopped;
     if (events.empty() || is_limit || reason == StopReason::diverged) return;
     const Event& last = events.back();
     const AffineMode& mode = preparation_.mode(last.mode).mode();
@@ -418,6 +431,7 @@ class Simulation {
   Present now_;
   ClockTicks ticks_;
   GuardWatch guards_;
+  std::size_t rounds_ = 0;  ///< of run()
   MotionObserver* observer_;
   std::optional<Standing> standing_{};        ///< of a motion that is observed
   std::optional<Repeating> repeating_{};      ///< likewise

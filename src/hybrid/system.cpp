@@ -184,6 +184,7 @@ End Motion::end() const {
       return End::time;
     case StopReason::event_limit:
     case StopReason::step_limit:  // is not set here
+    case StopReason::stopped:     // likewise
       return End::event_limit;
     case StopReason::zeno:
       return End::accumulation;

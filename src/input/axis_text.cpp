@@ -67,16 +67,22 @@ AxisText split_axis(std::string_view field, std::string_view text) {
   return {std::string(field), std::string(name), std::string(values)};
 }
 
-Axis read_axis_or_name(std::string_view field, std::string_view text, const Drive& drive) {
-  if (text.find('=') != std::string_view::npos) return read_axis(split_axis(field, text), drive);
+Axis read_axis_or_name(std::string_view field, std::string_view text, const Drive& drive,
+                       std::string* left_out) {
+  if (text.find('=') != std::string_view::npos) {
+    return read_axis(split_axis(field, text), drive, left_out);
+  }
   const Axis named{.path = path_named(text, drive)};
   if (parameter_of(named, drive) == nullptr) refuse(field, text, known_text(drive, text));
   return usual_axis(field, drive, text);
 }
 
-Axis read_axis_to_tune(std::string_view field, const std::string& text, const Drive& drive) {
+Axis read_axis_to_tune(std::string_view field, const std::string& text, const Drive& drive,
+                       std::string* left_out) {
   const bool has_two_ends = std::count(text.begin(), text.end(), ':') == 1;
-  Axis axis = read_axis_or_name(field, has_two_ends ? text + ":2" : text, drive);
+  // Between the ends are values that remain if an end is not permitted.
+  Axis axis = read_axis_or_name(field, has_two_ends ? text + ":101" : text, drive, left_out);
+  if (has_two_ends) axis.values = {axis.values.front(), axis.values.back()};
   if (text.find('=') == std::string::npos) return usual_axis_to_tune(drive, axis.path);
   axis.logarithmic = axis.values.front() > 0.0;
   return axis;
@@ -89,7 +95,7 @@ Drive drive_of_axes(const Drive& drive, const std::vector<AxisText>& axes) {
   return drive.servo || !wants_normal_form ? drive : normal_form_of(drive).value_or(drive);
 }
 
-Axis read_axis(const AxisText& text, const Drive& drive) {
+Axis read_axis(const AxisText& text, const Drive& drive, std::string* left_out) {
   Axis axis{.path = path_named(text.name, drive)};
   const Parameter* parameter = parameter_of(axis, drive);
   if (parameter == nullptr) refuse(text.field, text.name, known_text(drive, text.name));
@@ -113,6 +119,8 @@ Axis read_axis(const AxisText& text, const Drive& drive) {
                        read_count(text.field, parts[2]),
                        is_logarithmic ? Spacing::logarithmic : Spacing::linear);
   }
+  const std::string cut = left_out != nullptr ? cut_to_permitted(axis, drive) : "";
+  if (!cut.empty()) *left_out = text.field + " " + text.name + ": left out: " + cut;
   require_none(faults_of_axis(axis, drive, text.field));
   return axis;
 }

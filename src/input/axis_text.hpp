@@ -27,13 +27,18 @@ Drive drive_of_axes(const Drive& drive, const std::vector<AxisText>& axes);
 /// Reads numbers, fractions and numbers with units; a bare number is in SI. Words name the choices
 /// of a parameter. Throws InvalidInput, naming the field, for a parameter that the drive does not
 /// have, for unreadable values, and for faults_of_axis().
-Axis read_axis(const AxisText& text, const Drive& drive);
+///
+/// If `left_out` is given, values that the parameter must not have are left out, unless that leaves
+/// none, and it takes one line that says so.
+Axis read_axis(const AxisText& text, const Drive& drive, std::string* left_out = nullptr);
 
 /// An axis as typed, or usual_axis() of a name alone: "controller.proportional". Throws as both do.
-Axis read_axis_or_name(std::string_view field, std::string_view text, const Drive& drive);
+Axis read_axis_or_name(std::string_view field, std::string_view text, const Drive& drive,
+                       std::string* left_out = nullptr);
 
 /// The values that tune() may try: PATH=FROM:TO, by ratio where both ends are positive; an axis as
 /// typed; or usual_axis_to_tune() of a name alone. Throws as these do.
-Axis read_axis_to_tune(std::string_view field, const std::string& text, const Drive& drive);
+Axis read_axis_to_tune(std::string_view field, const std::string& text, const Drive& drive,
+                       std::string* left_out = nullptr);
 
 }  // namespace gearlash

@@ -43,8 +43,11 @@ class SweepReader {
     SweepFile file;
     const Drive likely = likely_drive(variation);
     for (const AxisText& axis : axes) {
-      note(section,
-           [&] { file.grid.axes.push_back(read_axis(axis, drive_of_axes(likely, axes))); });
+      std::string left_out;
+      note(section, [&] {
+        file.grid.axes.push_back(read_axis(axis, drive_of_axes(likely, axes), &left_out));
+      });
+      if (!left_out.empty()) file.left_out.push_back(std::move(left_out));
     }
     file.quantities = read_quantities(section);
     file.grid.proved = section.choice("verdicts", {"computed", "proved"}, false) == "proved";

@@ -15,6 +15,8 @@ struct SweepFile {
   Grid grid;                         ///< valid: faults(grid) is empty
   std::vector<Quantity> quantities;  ///< all known ones if the file names none
   std::string text;                  ///< of the file
+  std::vector<std::string>
+      left_out{};  ///< a line for each axis of which read_axis() left values out
 };
 
 /// The largest number of axes.

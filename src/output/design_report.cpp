@@ -145,6 +145,10 @@ std::string undecided_parts(const DesignReport& report, SearchKind kind) {
 }
 
 std::string certainty(const DesignReport& report) {
+  if (!report.answers.empty() && report.answers.back().stopped) {
+    return "The search over " + report.answers.back().parameter +
+           " was stopped. This list is not complete.";
+  }
   std::string text =
       "This list is complete for 0.001 to 1000 times the present value; for friction and feedback, "
       "up to ten times critical damping. Interval bounds over the whole range prove it";
@@ -194,7 +198,8 @@ Json json_answer(const DesignReport& report, const FeasibleValues& values) {
           {"unit", number.unit},
           {"present", json_number(values.present)},
           {"searched", json_bounds(values.searched)},
-          {"certified", values.kind == SearchKind::certified},
+          {"certified", values.kind == SearchKind::certified && !values.stopped},
+          {"stopped", values.stopped},
           {"intervals", json_list(values.intervals, &json_bounds)},
           {"undecided", json_list(values.undecided, &json_bounds)},
           {"nearest", nearest ? json_value(report, values, *nearest) : Json(nullptr)},
@@ -234,7 +239,8 @@ std::string design_text(const DesignReport& report) {
     for (std::size_t i = 0; i < answer.intervals.size(); ++i) {
       rows.push_back(interval_row(report, answer, i));
     }
-    if (answer.intervals.empty()) reasons += "  " + reason(report, answer) + "\n";
+    if (answer.intervals.empty() && !answer.stopped)
+      reasons += "  " + reason(report, answer) + "\n";
   }
   if (rows.size() > 1) {
     text += "One change by itself, other parameters fixed; ω_n, ζ and K show its cost\n" +

@@ -17,13 +17,11 @@ void for_each_sample(const MotionReport& report, Progress& progress, const Write
   const std::size_t count = report.motion.sample_count(report.every);
   const DecimalMultiples time_of(report.every);
   for (std::size_t i = 0; i < count; ++i) {
+    const bool is_asked = i > 0 && i % rows_between_progress == 0;
+    if (is_asked && !progress.go_on(static_cast<double>(i) / static_cast<double>(count))) return;
     MotionSample sample = report.motion.at(time_of(i));
     sample.time = time_of(i);
     write_row(sample);
-    if (i % rows_between_progress == 0 &&
-        !progress.go_on(static_cast<double>(i) / static_cast<double>(count))) {
-      return;
-    }
   }
 }
 

@@ -249,6 +249,18 @@ void write_file(const std::filesystem::path& path, std::string_view text) {
   file.commit();
 }
 
+std::string why_unwritable(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_fifo(path, error)) return "";
+  try {
+    const OutputFile tried(path);
+  } catch (const OutputError& fault) {
+    const std::string_view line = fault.what();
+    return std::string(line.substr(line.rfind(": ") + 2));
+  }
+  return "";
+}
+
 void save(const std::filesystem::path& path, std::string_view text) { write_file(path, text); }
 
 }  // namespace gearlash

@@ -70,6 +70,10 @@ using TextSink = std::function<void(std::string_view)>;
 /// Writes one text with OutputFile.
 void write_file(const std::filesystem::path& path, std::string_view text);
 
+/// Why no file of this name can be written, as "No such file or directory"; empty if one can. A
+/// pipe is not tried, because its reader would see its end.
+std::string why_unwritable(const std::filesystem::path& path);
+
 /// Removes the hidden files of all unfinished outputs. It is safe in a signal handler: handlers for
 /// SIGINT and SIGTERM call it before the program ends.
 void remove_unfinished_outputs() noexcept;

@@ -78,7 +78,7 @@ std::string reasons(const SearchedDesignReport& report) {
   std::string text;
   for (const SearchedParameter& parameter : report.parameters) {
     const FeasibleValues& values = parameter.values;
-    if (!values.intervals.empty()) continue;
+    if (!values.intervals.empty() || values.stopped) continue;
     const ParameterText shown(report.drive, values.parameter, report.angle);
     text += "  " + values.parameter + ": no " +
             (shown.is_word() ? "choice"
@@ -256,6 +256,7 @@ Json json_parameter(const Drive& drive, const SearchedParameter& parameter) {
           {"present", of_value(values.present)},
           {"searched", of_interval(values.searched)},
           {"certified", false},
+          {"stopped", values.stopped},
           {"grid", json_list(values.grid, of_value)},
           {"located", json_number(values.located)},
           {"intervals", json_list(values.intervals, of_interval)},

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/overloaded.hpp"
+#include "base/special_numbers.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/columns.hpp"
 #include "output/drive_text.hpp"
@@ -137,24 +138,30 @@ double widest_bar(const SensitivityStudy& study) {
   return widest;
 }
 
+std::string worst_number_text(const WorstNumber& worst, const ToleranceReport& report) {
+  return number_text(worst.path, worst.value, report) + ", " + name_of(worst.place);
+}
+
 std::vector<Row> number_rows(const ToleranceReport& report) {
   std::vector<Row> rows = {
       {"parameter", "varies", "amplitude", "in all", "hunting", "in all", "worst sample"}};
   for (std::size_t i = 0; i < report.drive.varied.size(); ++i) {
     const ParameterTolerance& varied = report.drive.varied[i];
     const NumberSensitivity& indices = report.sensitivities.numbers[i];
-    const WorstNumber& worst = report.worst.numbers[i];
+    const bool has_worst = !report.worst.numbers.empty();
     rows.push_back({varied.path, spread_text(varied, report),
                     index_text(indices.of_amplitude, &SensitivityIndices::first_order),
                     index_text(indices.of_amplitude, &SensitivityIndices::total),
                     index_text(indices.of_hunting, &SensitivityIndices::first_order),
                     index_text(indices.of_hunting, &SensitivityIndices::total),
-                    number_text(worst.path, worst.value, report) + ", " + name_of(worst.place)});
+                    has_worst ? worst_number_text(report.worst.numbers[i], report) : "not known"});
   }
   return rows;
 }
 
+/// Empty where the search for it was stopped.
 std::string worst_text(const ToleranceReport& report) {
+  if (report.worst.numbers.empty()) return "";
   const Performance& worst = report.worst.performance;
   std::string text = "The worst sample found within the tolerances ";
   if (worst.verdict == Verdict::cannot_hunt && !std::isnan(worst.growth_at_rest)) {
@@ -175,7 +182,7 @@ std::string worst_text(const ToleranceReport& report) {
             "standard deviations."
           : ". A climbing search found it, with unlimited normal distributions cut at three "
             "standard deviations.";
-  return text + how;
+  return wrapped(text + how);
 }
 
 bool has_limit(const Drive& drive) {
@@ -185,8 +192,10 @@ bool has_limit(const Drive& drive) {
 
 std::string proved_text(const ToleranceReport& report) {
   const EnclosedCeiling& proved = report.proved;
+  if (!proved.bound && proved.reason.empty()) return "";  // not reached
   if (!proved.bound) {
-    return "Not proved: a bound of all samples within the tolerances (" + proved.reason + ").";
+    return wrapped("Not proved: a bound of all samples within the tolerances (" + proved.reason +
+                   ").");
   }
   std::string text = "Proved: no sample within the tolerances swings by more than " +
                      swing_bound_text(*proved.bound, report.angle, usual_digits) + " in the end" +
@@ -197,7 +206,7 @@ std::string proved_text(const ToleranceReport& report) {
     text += "; of single drives it reaches " +
             swing_bound_text(*proved.largest, report.angle, usual_digits);
   }
-  return text + ").";
+  return wrapped(text + ").");
 }
 
 std::string backlash_text(const ToleranceReport& report) {
@@ -256,8 +265,11 @@ Json json_parameters(const ToleranceReport& report) {
   Json parameters = Json::array();
   for (std::size_t i = 0; i < report.drive.varied.size(); ++i) {
     const ParameterTolerance& varied = report.drive.varied[i];
-    const NumberSensitivity& indices = report.sensitivities.numbers[i];
-    const WorstNumber& worst = report.worst.numbers[i];
+    const NumberSensitivity indices = report.sensitivities.numbers.empty()
+                                          ? NumberSensitivity{}
+                                          : report.sensitivities.numbers[i];
+    const WorstNumber worst =
+        report.worst.numbers.empty() ? WorstNumber{"", not_a_number} : report.worst.numbers[i];
     parameters.push_back(
         {{"parameter", varied.path},
          {"unit", unit_of(report.drive.nominal, varied.path)},
@@ -288,18 +300,41 @@ Json json_backlash(const ToleranceReport& report) {
           {"uncertainty", json_bounds(widest.uncertainty)}};
 }
 
-}  // namespace
+/// What is known of a study that was stopped.
+std::string stopped_text(const ToleranceReport& report) {
+  const ToleranceStudy& study = report.study;
+  const auto percent = [](const Estimate& share) {
+    return std::isnan(share.value) ? "not known" : significant(100.0 * share.value, 3) + " %";
+  };
+  std::vector<Row> rows = {{"hunt", percent(study.hunting)}};
+  if (!report.target_text.empty()) {
+    rows.push_back({"meet \"" + report.target_text + "\"", percent(study.yield)});
+  }
+  return fmt::format("Of the {} samples, out of {}, that were answered before the stop\n",
+                     study.answered, study.sampling.samples()) +
+         table_text(rows);
+}
 
-std::string tolerance_text(const ToleranceReport& report) {
-  return "Of all samples\n" + table_text(headline_rows(report)) + "\n" +
-         table_text(quantile_rows(report)) +
-         fmt::format(
+std::string decisive_text(const ToleranceReport& report) {
+  if (report.sensitivities.numbers.empty()) return "";
+  return fmt::format(
              "\nWhat decides: the share of the variance of the amplitude, and of hunting, that "
              "each\nparameter causes alone, and in all, together with others (Sobol's indices, "
              "± {})\n",
              significant(widest_bar(report.sensitivities), 1)) +
-         table_text(number_rows(report)) + "\n" + wrapped(worst_text(report)) + "\n" +
-         wrapped(proved_text(report)) + backlash_text(report) + "\n" + counts_text(report);
+         table_text(number_rows(report));
+}
+
+std::string after_a_line(const std::string& text) { return text.empty() ? "" : "\n" + text; }
+
+}  // namespace
+
+std::string tolerance_text(const ToleranceReport& report) {
+  if (report.study.stopped) return stopped_text(report);
+  return "Of all samples\n" + table_text(headline_rows(report)) + "\n" +
+         table_text(quantile_rows(report)) + decisive_text(report) +
+         after_a_line(worst_text(report)) + after_a_line(proved_text(report)) +
+         backlash_text(report) + "\n" + counts_text(report);
 }
 
 std::string tolerance_json(const ToleranceReport& report) {
@@ -328,6 +363,8 @@ std::string tolerance_json(const ToleranceReport& report) {
   json["undecided"] = study.undecided;
   json["unknown_amplitudes"] = study.unknown_amplitudes;
   json["refused"] = study.refused;
+  json["answered"] = study.answered;
+  json["stopped"] = report.stopped;
   return json.dump(2) + "\n";
 }
 

@@ -17,10 +17,11 @@ struct ToleranceReport {
   double demanded_yield = 0.0;
   Quantity amplitude = Quantity::amplitude;  ///< whose amplitude: of the load, or motor_amplitude
   ToleranceStudy study = {};
-  SensitivityStudy sensitivities = {};
-  EnclosedCeiling proved{};  ///< of the amplitude of all samples
-  WorstCorner worst = {};
+  SensitivityStudy sensitivities = {};  ///< without numbers where a limit stopped the work before
+  EnclosedCeiling proved{};             ///< of the amplitude of all samples
+  WorstCorner worst = {};               ///< likewise
   std::optional<WidestBacklash> backlash = {};  ///< if a yield was demanded and can be reached
+  bool stopped = false;                         ///< by a limit: not all is known
   AngleUnit angle = {};                         ///< of text
   Provenance provenance = {};
 };

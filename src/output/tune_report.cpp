@@ -63,7 +63,9 @@ std::string outcome_text(const TuneReport& report) {
   const TunedDrive& tuned = report.tuned;
   std::string text = count_text(tuned) + " the target";
   if (tuned.meets) return text + reached_text(report, tuned) + ".";
-  text = "Nothing found that meets the target; the best by count is shown. " + text + ".";
+  text = (tuned.stopped ? "The search was stopped; the best values by then are shown. "
+                        : "Nothing found that meets the target; the best by count is shown. ") +
+         text + ".";
   if (tuned.undecided > 0) {
     text += fmt::format(" What {} of the others do was not decided.", tuned.undecided);
   }
@@ -116,8 +118,7 @@ std::string effort_text(const TuneReport& report) {
         tuned.rounds, tuned.units);
   }
   if (tuned.by_derivatives) text += ". The last values were closed in on by exact derivatives";
-  text += ". Other values may be better.";
-  return tuned.stopped ? text + " The search was stopped." : text;
+  return text + ". Other values may be better.";
 }
 
 std::string paragraph(const std::string& text) { return text.empty() ? "" : wrapped(text) + "\n"; }

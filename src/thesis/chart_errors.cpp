@@ -38,7 +38,8 @@ std::vector<ChartError> chart_errors(
     const SettledCycle cycle = cycle_of(program_parameters(servo));
     errors.push_back({servo, cycle.hunts ? std::optional(cycle.amplitude) : std::nullopt,
                       exact_amplitude(servo)});
-    progress.go_on(static_cast<double>(errors.size()) / static_cast<double>(servos.size()));
+    const double share = static_cast<double>(errors.size()) / static_cast<double>(servos.size());
+    if (!progress.go_on(share)) break;
   }
   return errors;
 }

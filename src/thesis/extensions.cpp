@@ -155,7 +155,7 @@ Extension elastic_contact(Progress& progress) {
     };
     result.chart.curves.push_back(
         bouncing_curve(fmt::format("damping {}", damping), evenly(0.0, 1.0, 51), servo_at));
-    progress.go_on(static_cast<double>(result.chart.curves.size()) / dampings.size());
+    if (!progress.go_on(static_cast<double>(result.chart.curves.size()) / dampings.size())) break;
   }
   return result;
 }

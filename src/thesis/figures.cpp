@@ -233,7 +233,8 @@ ChartCurve work_out(const Figure& figure, const FigureCurve& curve, Progress& pr
     const SettledCycle cycle =
         run_until_settled(program_parameters(servo_at(figure, curve, place)));
     if (cycle.hunts) drawn.marks.push_back({place, cycle.amplitude});
-    progress.go_on(static_cast<double>(i + 1) / static_cast<double>(figure.grid.size()));
+    if (!progress.go_on(static_cast<double>(i + 1) / static_cast<double>(figure.grid.size())))
+      break;
   }
   return drawn;
 }
@@ -249,6 +250,7 @@ LineChart chart_of(const Figure& figure, Progress& progress) {
   if (figure.along == Along::inertia_ratio) chart.y.high = 1.0;  // one scale for all design charts
   for (const FigureCurve& one : figure.curves) {
     ProgressPart part(progress, chart.curves.size(), figure.curves.size());
+    if (!part.go_on(0.0)) break;
     ChartCurve curve = work_out(figure, one, part);
     const bool hunts =
         std::any_of(curve.line.begin(), curve.line.end(),

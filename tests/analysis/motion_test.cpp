@@ -171,6 +171,20 @@ TEST(Motion, HasNoTicksAmongItsEvents) {
     EXPECT_THAT(event.what, AnyOf(HasSubstr("faces"), HasSubstr("impact")));
 }
 
+TEST(Motion, IsStoppedOnItsWayByProgress) {
+  class HalfTheWay : public Progress {
+   public:
+    bool go_on(double share, std::size_t /*bytes*/) override { return share < 0.5; }
+  };
+  Drive drive = general_drive();
+  drive.sampling = Sampling{.period = 0.01};
+  HalfTheWay progress;
+  const Motion motion = simulate(drive, {.until = 1000.0}, progress);
+  EXPECT_EQ(motion.stop(), MotionStop::stopped);
+  EXPECT_GE(motion.end_time(), 500.0);
+  EXPECT_LT(motion.end_time(), 600.0);
+}
+
 TEST(Motion, OutlivesWhatItWasMadeOf) {
   Motion copy;
   EXPECT_EQ(copy.stop(), MotionStop::stopped);

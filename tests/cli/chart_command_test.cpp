@@ -233,5 +233,17 @@ TEST(ChartCommand, FaultsAreToldAtOnce) {
   EXPECT_EQ(missing.err, "gearlash: --x is required; see gearlash chart --help\n");
 }
 
+TEST(ChartCommand, LeavesOutValuesThatAreNotPermittedAndSaysSo) {
+  const test::Scratch scratch;
+  const Outcome run =
+      run_tool({"chart", "--x", "restitution=0:2:5", "--damping", "0.2", "--inertia-ratio", "1",
+                "--friction-ratio", "0.2", "--output", (scratch / "a.csv").string()});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.out, HasSubstr("a.csv: 3 servos, "));
+  EXPECT_EQ(run.err,
+            "gearlash: --x restitution: left out: 1.5 and 1 more (contact.restitution must "
+            "be from 0 to 1)\n");
+}
+
 }  // namespace
 }  // namespace gearlash::chart_command_test

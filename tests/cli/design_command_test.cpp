@@ -218,5 +218,34 @@ TEST(EdgeDesignCommand, OfAnyDriveFaultsAreToldAllAtOnce) {
                           HasSubstr("--plot = region=region.svg: must have a closed-form")));
 }
 
+/// Ranges that leave what is permitted of the parameter, or of the drive, are cut to it.
+TEST(DesignCommand, CutsRangesToWhatIsPermitted) {
+  const Outcome usual =
+      run_tool({"design", "--damping", ".23", "--inertia-ratio", "3", "--friction-ratio", ".15",
+                "--backlash", ".2", "--target", "no-hunting", "--parameters", "friction-ratio"});
+  EXPECT_EQ(usual.status, 0) << usual.err;
+  EXPECT_THAT(usual.out, HasSubstr("friction_ratio, 26 values from 0 to 1"));
+  const Outcome of_drive =
+      run_tool({"design", "examples/symptoms/joint.toml", "--sensor", "motor", "--target",
+                "settling-time <= 200 ms", "--parameters", "gearbox.backlash=0:20 arcmin:3"});
+  EXPECT_EQ(of_drive.status, 0) << of_drive.err;
+  EXPECT_THAT(of_drive.out, HasSubstr(" from 10 arcmin to 20 arcmin"));
+  const std::vector<std::string> restitution = {
+      "design", "--damping",  ".23", "--inertia-ratio", "3",          "--friction-ratio",
+      ".15",    "--backlash", ".2",  "--target",        "no-hunting", "--parameters"};
+  auto partly = restitution;
+  partly.emplace_back("servo.friction_ratio=0.5:1.5:3");
+  const Outcome typed = run_tool(partly);
+  EXPECT_EQ(typed.status, 0);
+  EXPECT_EQ(typed.err,
+            "gearlash: --parameters servo.friction_ratio: left out: 1.5 (servo.friction_ratio must "
+            "be from 0 to 1)\n");
+  auto wholly = restitution;
+  wholly.emplace_back("servo.friction_ratio=1.5:2:3");
+  const Outcome refused = run_tool(wholly);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("servo.friction_ratio must be from 0 to 1"));
+}
+
 }  // namespace
 }  // namespace gearlash::design_command_test

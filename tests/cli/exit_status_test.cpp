@@ -48,15 +48,52 @@ TEST(ExitStatus, ThreeForAPictureThatFailsWhoseAnswerIsPrinted) {
   EXPECT_EQ(scratch.file_count(), 1U);
 }
 
-TEST(ExitStatus, ThreeForAPictureThatCannotBeWrittenBesideTheAnswer) {
+TEST(ExitStatus, TwoForAFileThatCannotBeWrittenBeforeTheWork) {
   const Scratch scratch;
-  const Outcome run = run_tool({"tolerance", "examples/toleranced.toml", "--samples", "32",
-                                "--plot", "indices=" + (scratch / "missing" / "a.svg").string(),
-                                "--plot", "yield=" + (scratch / "yield.svg").string()});
+  const std::string missing = (scratch / "missing" / "a").string();
+  for (const auto& [command, option, ending] :
+       {std::tuple("limit-cycle examples/robot-joint.toml --plot phase=", "--plot", ".svg"),
+        std::tuple("simulate examples/robot-joint.toml --output ", "--output", ".csv"),
+        std::tuple("simulate examples/robot-joint.toml --plot time=", "--plot", ".svg"),
+        std::tuple("tune examples/toleranced-joint.toml --write ", "--write", ".toml"),
+        std::tuple("tolerance examples/toleranced-joint.toml --plot yield=", "--plot", ".svg"),
+        std::tuple("compare examples/robot-joint.toml --plot time=", "--plot", ".svg"),
+        std::tuple("describe examples/robot-joint.toml --plot nyquist=", "--plot", ".svg"),
+        std::tuple("chart examples/robot-joint.toml --x gearbox.ratio=10:20:3 --output ",
+                   "--output", ".csv"),
+        std::tuple("explore examples/robot-joint.toml --output ", "--output", ".html"),
+        std::tuple("sweep examples/sweep.toml --output ", "--output", ".nc"),
+        std::tuple("thesis extension 4 --output ", "--output", ".svg"),
+        std::tuple("thesis figure 7 --output ", "--output", ".svg"),
+        std::tuple("thesis run --all --plot errors=", "--plot", ".svg")}) {
+    const std::string file = missing + ending;
+    const Outcome run = run_shell("\"$GEARLASH\" " + std::string(command) + quoted(file));
+    EXPECT_EQ(run.status, 2) << command;
+    EXPECT_EQ(run.out, "") << command;
+    EXPECT_EQ(run.err, "gearlash: " + std::string(option) + " = " + file +
+                           ": must be a file that can be written (No such file or directory)\n");
+  }
+  const Outcome folder =
+      run_tool({"simulate", "examples/elinco-fd162.toml", "--output", (scratch / "").string()});
+  EXPECT_EQ(folder.status, 2);
+  EXPECT_THAT(folder.err, HasSubstr("can be written (Is a directory)"));
+}
+
+TEST(ExitStatus, ThreeForAFileThatFailsAfterTheWorkWhoseAnswerIsPrinted) {
+  const Outcome run = run_tool({"tune", "examples/elinco-fd162.toml", "--write", "/dev/full"});
   EXPECT_EQ(run.status, 3);
-  EXPECT_THAT(run.out, HasSubstr("hunt"));
-  EXPECT_THAT(run.err, HasSubstr("missing/a.svg: cannot be written: No such file"));
-  EXPECT_THAT(file_text(scratch / "yield.svg"), StartsWith("<?xml"));
+  EXPECT_THAT(run.out, StartsWith("target: "));
+  EXPECT_EQ(run.err, "gearlash: /dev/full: cannot be written: No space left on device\n");
+}
+
+TEST(ExitStatus, TwoForAPictureThatTheDriveDoesNotHaveWhoseAnswerIsPrinted) {
+  const Scratch scratch;
+  const Outcome run =
+      run_tool({"limit-cycle", "examples/normalized.toml", "--set", "servo.backlash=0 rad",
+                "--plot", "tornado=" + (scratch / "a.svg").string()});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.out, StartsWith("cannot hunt"));
+  EXPECT_THAT(run.err, HasSubstr("--plot = tornado: must be left out"));
 }
 
 TEST(ExitStatus, ThreeStandsOverOne) {

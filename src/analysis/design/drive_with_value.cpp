@@ -5,14 +5,14 @@
 
 namespace gearlash {
 
-DriveWithValue with_value(const Drive& base, const Axis* axis, double value) {
+DriveWithValue with_value(const Drive& base, const Axis* axis, double value, Progress& progress) {
   Wanted wanted{.proofs = false};
   for (const Quantity cost : {Quantity::bandwidth, Quantity::overshoot}) {
     ask_for(cost, base, wanted);
   }
   Drive drive = base;
   if (axis != nullptr) set_on(*axis, drive, value);
-  return {.value = value, .answer = analyse(drive, wanted)};
+  return {.value = value, .answer = analyse(drive, wanted, progress)};
 }
 
 }  // namespace gearlash

@@ -3,6 +3,7 @@
 
 #include "gearlash/answer.hpp"
 #include "gearlash/grid.hpp"
+#include "gearlash/progress.hpp"
 
 namespace gearlash {
 
@@ -13,6 +14,7 @@ struct DriveWithValue {
 
 /// Without an axis the drive is as it is. The step is the usual one of the drive without the value.
 /// Throws InvalidInput if it is unsound with that value.
-DriveWithValue with_value(const Drive& base, const Axis* axis, double value);
+DriveWithValue with_value(const Drive& base, const Axis* axis, double value,
+                          Progress& progress = no_progress());
 
 }  // namespace gearlash

@@ -11,6 +11,7 @@
 #include "analysis/grid/axis.hpp"
 #include "base/on_threads.hpp"
 #include "base/range_check.hpp"
+#include "base/shared_progress.hpp"
 #include "closed_form/growth_at_rest.hpp"
 
 namespace gearlash {
@@ -43,8 +44,9 @@ bool has_bounces(const ChangeableDrive& drive, const ChangeableNumber& number) {
 
 class Search {
  public:
-  Search(const ChangeableDrive& drive, const ChangeableNumber& number, const Target& target)
-      : drive_(drive), number_(number), target_(target) {
+  Search(const ChangeableDrive& drive, const ChangeableNumber& number, const Target& target,
+         Progress& progress)
+      : drive_(drive), number_(number), target_(target), shared_(progress, usual_evaluations) {
     if (number.is_backlash() && has_bounces(drive, number)) {
       at_present_ = performance_of(drive.drivetrain());
     }
@@ -54,6 +56,7 @@ class Search {
   }
 
   std::size_t evaluations() const { return evaluations_; }
+  bool is_stopped() const { return shared_.is_stopped(); }
 
   bool is_met_at(double value) { return judged(value).is_met; }
 
@@ -76,7 +79,7 @@ class Search {
       }
       open = std::move(halves);
       constexpr std::size_t most_open = 20'000;
-      if (open.size() <= most_open) continue;
+      if (open.size() <= most_open && shared_.go_on(0.0)) continue;
       for (const Bounds& values : open) proved.push_back({values, Judgement::some});
       break;
     }
@@ -121,6 +124,9 @@ class Search {
 
   /// From several threads at a time.
   JudgedValue judged(double value) {
+    if (!shared_.finish(evaluations_ < usual_evaluations ? 1 : 0)) {
+      return {.value = value, .is_known = false, .beyond = Target::infinity};
+    }
     ++evaluations_;
     const Performance performance = performance_at(value);
     return {.value = value,
@@ -208,6 +214,7 @@ class Search {
 
   static constexpr std::size_t coarse = 64;  ///< a servo with bounces takes milliseconds
   static constexpr std::size_t fine = 1024;
+  static constexpr std::size_t usual_evaluations = 500;  ///< for the progress alone
 
   const ChangeableDrive& drive_;
   const ChangeableNumber& number_;
@@ -216,6 +223,7 @@ class Search {
   Target of_motion_;
   std::vector<JudgedValue> tried_;
   std::atomic<std::size_t> evaluations_ = 0;
+  SharedProgress shared_;
 };
 
 /// Joins neighbors with the same judgement.
@@ -262,14 +270,14 @@ std::vector<double> FeasibleValues::nearest_of_each() const {
 }
 
 FeasibleValues feasible_values(const ChangeableDrive& drive, std::string_view parameter,
-                               const Target& target) {
+                               const Target& target, Progress& progress) {
   const ChangeableNumber& number = drive.number(parameter);
   FeasibleValues found;
   found.parameter = number.name;
   found.present = number.present;
   found.searched = drive.range(parameter);
   found.kind = has_bounces(drive, number) ? SearchKind::scanned : SearchKind::certified;
-  Search search(drive, number, target);
+  Search search(drive, number, target, progress);
   const std::vector<Part> parts = found.kind == SearchKind::certified
                                       ? joined(search.certified(found.searched))
                                       : search.scanned(found.searched);
@@ -278,6 +286,7 @@ FeasibleValues feasible_values(const ChangeableDrive& drive, std::string_view pa
       [&](double met, double unmet) { return search.last_met_between(met, unmet); }, found);
   if (found.intervals.empty()) found.closest = search.closest(found.searched);
   found.evaluations = search.evaluations();
+  found.stopped = search.is_stopped();
   return found;
 }
 

@@ -7,6 +7,7 @@
 
 #include "analysis/design/changeable_drive.hpp"
 #include "gearlash/design.hpp"
+#include "gearlash/progress.hpp"
 
 namespace gearlash {
 
@@ -27,7 +28,7 @@ namespace gearlash {
 /// Precondition: faults(target) is empty. Throws InvalidInput for a number that the drive does not
 /// have.
 FeasibleValues feasible_values(const ChangeableDrive& drive, std::string_view parameter,
-                               const Target& target);
+                               const Target& target, Progress& progress = no_progress());
 
 /// Whether the closed form answers for this target and these parameters: names, or axes as they are
 /// typed. A name that is no parameter of the drive counts as one of the closed form, which knows

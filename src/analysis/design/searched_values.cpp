@@ -281,6 +281,21 @@ std::vector<JudgedValue> of_numbers(AnalysedDrives& analysed, FeasibleValues& fo
   return tried;
 }
 
+/// Values at the ends of a rising grid whose drive is unsound are no part of it, unless all are.
+void cut_to_sound_drives(const Axis& axis, const Drive& drive, FeasibleValues& found) {
+  const auto is_sound = [&](double value) {
+    Drive changed = drive;
+    set_on(axis, changed, value);
+    return faults(changed).empty();
+  };
+  std::vector<double>& grid = found.grid;
+  const auto first = std::find_if(grid.begin(), grid.end(), is_sound);
+  const auto last = std::find_if(grid.rbegin(), grid.rend(), is_sound);
+  if (first == grid.end()) return;
+  grid = std::vector<double>(first, last.base());
+  found.searched = {grid.front(), grid.back()};
+}
+
 /// Precondition: `found` has its grid.
 template <class Search>
 void fill(FeasibleValues& found, const DriveAlong& drive, const Target& target,
@@ -342,6 +357,7 @@ FeasibleValues feasible_values(const Drive& drive, const Axis& axis, const Targe
   if (is_word) {
     std::erase_if(found.grid, [&](double word) { return asks_for_more(axis, word, drive); });
   }
+  if (!is_word) cut_to_sound_drives(axis, drive, found);
   if (present && !is_word && found.searched.contains(*present)) add_present(*present, found.grid);
   fill(found, drives_along(axis, drive), target, wanted_for(target, drive), progress,
        is_word ? of_words : of_numbers);

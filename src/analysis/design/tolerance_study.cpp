@@ -81,10 +81,52 @@ ToleranceStudy counted(const SamplePlan& sampling, std::span<const DrawnResult> 
       sum_of_finite[replicate] += result.amplitude;
     }
   }
+  study.answered = results.size() - study.undecided;
   study.hunting = *detail::ratio_of(hunting, points);
   study.yield = *detail::ratio_of(meeting, points);
   study.mean_amplitude = detail::ratio_of(sum_of_finite, finite);
   return study;
+}
+
+/// Of the samples that were answered before the work was stopped. One that was broken off is
+/// undecided.
+ToleranceStudy stopped_study(const SamplePlan& sampling, std::span<const DrawnResult> results) {
+  ToleranceStudy study{.sampling = sampling, .stopped = true};
+  double hunting = 0.0;
+  double meeting = 0.0;
+  for (const DrawnResult& result : results) {
+    if (result.verdict == Verdict::undecided) continue;
+    ++study.answered;
+    if (result.hunts()) hunting += 1.0;
+    if (result.meets) meeting += 1.0;
+  }
+  const auto share = [&](double count) {
+    return Estimate{study.answered > 0 ? count / static_cast<double>(study.answered)
+                                       : std::numeric_limits<double>::quiet_NaN()};
+  };
+  study.hunting = share(hunting);
+  study.yield = share(meeting);
+  return study;
+}
+
+/// False if the work was stopped; samples without an answer are then undecided.
+bool answer_all(const TolerancedDrive& drive, const SamplePlan& sampling,
+                const StudyQuestions& questions, std::size_t first, const Workers& workers,
+                Progress& progress, DrawnResults& all) {
+  const detail::DrawnValues values(drive, sampling, 1);
+  const detail::DrawnAnswers answers(drive, questions.target, questions.amplitude, workers.unit);
+  const auto work = [&](std::size_t begin, std::size_t rows, Progress& of_block) {
+    const DrawnResults results = answers.of(rows, values.of(first + begin, rows), of_block);
+    std::copy(results.begin(), results.end(), all.begin() + static_cast<std::ptrdiff_t>(begin));
+  };
+  return detail::in_blocks(all.size(), answers.at_a_time(), workers, progress, work);
+}
+
+void require_sound(const TolerancedDrive& drive, const SamplePlan& sampling,
+                   const StudyQuestions& questions) {
+  RangeCheck check;
+  check.include(faults(drive)).include(validate(sampling)).include(validate(questions));
+  require_none(check.faults());
 }
 
 }  // namespace
@@ -116,22 +158,14 @@ std::optional<DrawnResults> answer_samples(const TolerancedDrive& drive, const S
                                            const StudyQuestions& questions, std::size_t first,
                                            std::size_t count, const Workers& workers,
                                            Progress& progress) {
-  RangeCheck check;
-  check.include(faults(drive)).include(validate(sampling)).include(validate(questions));
-  require_none(check.faults());
+  require_sound(drive, sampling, questions);
   const std::size_t samples = sampling.samples();
   if (first >= samples || count == 0 || count > samples - first) {
     require_none({{"samples", std::to_string(first) + " and " + std::to_string(count) + " more",
                    "must be among the " + std::to_string(samples) + " of the plan", ""}});
   }
-  const detail::DrawnValues values(drive, sampling, 1);
-  const detail::DrawnAnswers answers(drive, questions.target, questions.amplitude, workers.unit);
   DrawnResults all(count);
-  const auto work = [&](std::size_t begin, std::size_t rows, Progress& of_block) {
-    const DrawnResults results = answers.of(rows, values.of(first + begin, rows), of_block);
-    std::copy(results.begin(), results.end(), all.begin() + static_cast<std::ptrdiff_t>(begin));
-  };
-  if (!detail::in_blocks(count, answers.at_a_time(), workers, progress, work)) return std::nullopt;
+  if (!answer_all(drive, sampling, questions, first, workers, progress, all)) return std::nullopt;
   return all;
 }
 
@@ -167,13 +201,11 @@ ToleranceStudy study_of(const SamplePlan& sampling, const StudyQuestions& questi
 ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& sampling,
                                 const StudyQuestions& questions, const Workers& workers,
                                 Progress& progress) {
-  const auto results =
-      answer_samples(drive, sampling, questions, 0, sampling.samples(), workers, progress);
-  if (results) return study_of(sampling, questions, *results, workers.threads);
-  ToleranceStudy stopped;
-  stopped.sampling = sampling;
-  stopped.stopped = true;
-  return stopped;
+  require_sound(drive, sampling, questions);
+  DrawnResults results(sampling.samples());
+  return answer_all(drive, sampling, questions, 0, workers, progress, results)
+             ? study_of(sampling, questions, results, workers.threads)
+             : stopped_study(sampling, results);
 }
 
 ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& sampling,

@@ -163,11 +163,14 @@ Axis usual_axis(std::string_view field, const Drive& drive, std::string_view par
     }
     return axis;
   }
-  if (found->permitted == Permitted::share) return linear(axis.path, 0.0, 1.0, count);
+  if (found->permitted == Permitted::share || found->path == "servo.friction_ratio") {
+    return linear(axis.path, 0.0, 1.0, count);
+  }
   const double present = present_value(axis, drive).value_or(0.0);
   constexpr double factor = 10.0;
   if (present > 0.0 && std::isfinite(present)) {
     axis = logarithmic(axis.path, present / factor, present * factor, count);
+    cut_to_permitted(axis, drive);
     if (faults_of_value(axis, *found, 0.0).empty()) axis.values.insert(axis.values.begin(), 0.0);
     return axis;
   }
@@ -189,6 +192,21 @@ void set_on(const Axis& axis, Drive& drive, double value) {
   if (const auto* choice = std::get_if<Choice>(&slot)) {
     choice->choose(drive, static_cast<std::size_t>(value));
   }
+}
+
+std::string cut_to_permitted(Axis& axis, const Drive& drive) {
+  const Parameter& parameter = *parameter_of(axis, drive);
+  std::vector<double> left_out;
+  std::vector<double> kept;
+  for (const double value : axis.values) {
+    (faults_of_value(axis, parameter, value).empty() ? kept : left_out).push_back(value);
+  }
+  if (left_out.empty() || kept.empty()) return "";
+  axis.values = std::move(kept);
+  const std::string others =
+      left_out.size() > 1 ? " and " + std::to_string(left_out.size() - 1) + " more" : "";
+  return exact_text(left_out.front()) + others + " (" + axis.path + " " +
+         faults_of_value(axis, parameter, left_out.front()).front().permitted + ")";
 }
 
 std::vector<Fault> faults_of_axis(const Axis& axis, const Drive& drive, std::string_view field) {

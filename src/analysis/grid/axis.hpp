@@ -66,6 +66,11 @@ std::size_t interval_of(const Axis& axis, double value);
 /// that repeat).
 std::vector<Fault> faults_of_axis(const Axis& axis, const Drive& drive, std::string_view field);
 
+/// Leaves out the values that the parameter must not have, if it may have others. Returns what it
+/// left out and why, "0 (gearbox.backlash must be positive)"; empty if nothing. Precondition:
+/// parameter_of(axis, drive).
+std::string cut_to_permitted(Axis& axis, const Drive& drive);
+
 /// The name of a column or dimension: "damping" for servo.damping, … and "restitution" for
 /// contact.restitution, the names before paths existed; any other path with "_" in place of points
 /// and brackets.

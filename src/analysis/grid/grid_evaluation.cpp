@@ -191,10 +191,12 @@ class GridPart {
       figures.write(row, points_.drive_at(walk_again.values()));
       walk_again.go_on();
     }
-    count.searched = searched_rows_.size();
+    count.searched = found_;
     count.refused = refused_.size();
     return count;
   }
+
+  std::size_t to_search() const { return searched_.size(); }
 
  private:
   struct Scale {
@@ -228,9 +230,12 @@ class GridPart {
   }
 
   void search(SharedProgress& progress) {
+    // What is not reached is unknown.
+    for (const std::size_t row : searched_rows_) write(columns_, row, Answer{});
     for (std::size_t first = 0; first < searched_.size(); first += longest_run_) {
       const auto take = [&](std::size_t index, const Answer& answer) {
         write(columns_, searched_rows_[first + index], answer);
+        if (!answer.search || answer.search->is_complete) ++found_;
         return progress.finish(1);
       };
       const std::size_t count = std::min(longest_run_, searched_.size() - first);
@@ -264,6 +269,7 @@ class GridPart {
   std::vector<std::size_t> searched_rows_;
   std::vector<Drive> searched_;
   std::vector<std::size_t> refused_;
+  std::size_t found_ = 0;  ///< answers of searched drives
 };
 
 }  // namespace
@@ -389,7 +395,7 @@ GridCount evaluate_parts(const GridPoints& points, const std::vector<std::size_t
       const std::scoped_lock lock(adding);
       total.add(of_part);
     }
-    searches.finish(rows - of_part.searched);
+    searches.finish(rows - part.to_search());
   });
   total.stopped = searches.is_stopped() && searches.done() < count;
   return total;

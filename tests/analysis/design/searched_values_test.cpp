@@ -207,6 +207,10 @@ TEST(SearchedValues, AreSoughtByDefaultAboutThePresentValue) {
   EXPECT_EQ(ratio.values.size(), 25U);  // 0 is not permitted
   EXPECT_DOUBLE_EQ(ratio.values[0], 2.0);
   EXPECT_THAT(usual_axis(drive, "contact.restitution").values.back(), 1.0);
+  // Ten times the present value is more than a normal form may have.
+  const Drive form = normal_form(200.0, 2.0, 0.15, 0.3);
+  EXPECT_THAT(usual_axis(form, "servo.friction_ratio").values.back(), 1.0);
+  EXPECT_LE(usual_axis(form, "servo.damping").values.back(), 1000.0);
 }
 
 // ---- random tasks -------------------------------------------------------------------------------

@@ -455,7 +455,15 @@ TEST(EdgeToleranceStudy, CanBeStopped) {
     bool go_on(double /*share*/, std::size_t /*bytes*/) override { return false; }
   };
   Stop stop;
-  EXPECT_TRUE(study_tolerances(widely_toleranced(), sampling, {}, {.threads = 1}, stop).stopped);
+  const ToleranceStudy study =
+      study_tolerances(widely_toleranced(), sampling, {}, {.threads = 1}, stop);
+  EXPECT_TRUE(study.stopped);
+  EXPECT_GT(study.answered, 0U);  // the first block, by the end of which it learns of the stop
+  EXPECT_LT(study.answered, sampling.samples());
+  const double hunting =
+      study_tolerances(widely_toleranced(), sampling, {}, {.threads = 1}, no_progress())
+          .hunting.value;
+  EXPECT_NEAR(study.hunting.value, hunting, 0.1);
   EXPECT_TRUE(study_sensitivities(widely_toleranced(), sampling, {}, {.threads = 1}, stop).stopped);
 }
 
