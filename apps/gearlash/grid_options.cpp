@@ -310,9 +310,9 @@ ExitStatus make_grid_files(const GridTask& task, LimitedWork& work, const Proven
     file.commit();
     made += (made.empty() ? "" : ", ") + file.shown_name();
   };
-  if (task.plots.empty() && ending_of(task.table) == ".nc") {
+  const bool is_streamed = task.plots.empty() && ending_of(task.table) == ".nc";
+  if (is_streamed) {
     count = write_netcdf(task, provenance, *output, *progress);
-    if (!work.is_interrupted()) commit(*output);
   } else {
     table.table = Table(task.grid.size(), quantities_of(task));
     count = evaluate(task.grid, GridPoints(task.grid), 0, task.grid.size(), columns_of(table.table),
@@ -321,19 +321,19 @@ ExitStatus make_grid_files(const GridTask& task, LimitedWork& work, const Proven
       progress.emplace(work, "Borders");
       add_borders(table, *progress);
     }
-    if (output && !work.is_interrupted()) {
-      extras.make([&] {
-        write_table(task, table, count, *output);
-        commit(*output);
-      });
-    }
   }
   progress.reset();  // wiped before anything is printed
   const ExitStatus status =
       end_work(work, ExitStatus::done,
                count.points() < task.grid.size()
                    ? fmt::format("{} of {} points are known", count.points(), task.grid.size())
-                   : "borders are missing");
+                   : "some of their quantities, or borders, are missing");
+  if (output) {
+    extras.make([&] {
+      if (!is_streamed) write_table(task, table, count, *output);
+      commit(*output);
+    });
+  }
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     extras.make([&] {
       pictures[i]->write(draw(table, task.plots[i].format));

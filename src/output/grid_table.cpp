@@ -91,6 +91,7 @@ bool has_regions(const Grid& grid) {
 
 void add_borders(GridTable& table, Progress& progress) {
   table.hunting_boundary = hunting_boundary(table.grid, table.table[Quantity::growth_at_rest]);
+  if (!progress.go_on(0.0)) return;
   table.dissipative_boundary = dissipative_boundary(table.grid);
   if (has_regions(table.grid)) table.regions = motion_regions(table.grid, table.table, progress);
 }

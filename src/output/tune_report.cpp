@@ -54,6 +54,7 @@ std::string reached_text(const TuneReport& report, const TunedDrive& tuned) {
 }
 
 std::string count_text(const TunedDrive& tuned) {
+  if (tuned.units == 0) return "No unit was tried, so none is known to meet";
   if (tuned.units == 1) return tuned.met == 1 ? "The drive meets" : "The drive does not meet";
   if (tuned.met == tuned.units) return fmt::format("All {} units tried meet", tuned.units);
   return fmt::format("{} of {} units tried meet", tuned.met, tuned.units);

@@ -88,11 +88,10 @@ TEST(ExitStatus, ThreeForAFileThatFailsAfterTheWorkWhoseAnswerIsPrinted) {
 
 TEST(ExitStatus, TwoForAPictureThatTheDriveDoesNotHaveWhoseAnswerIsPrinted) {
   const Scratch scratch;
-  const Outcome run =
-      run_tool({"limit-cycle", "examples/normalized.toml", "--set", "servo.backlash=0 rad",
-                "--plot", "tornado=" + (scratch / "a.svg").string()});
+  const Outcome run = run_tool({"limit-cycle", "examples/dynamixel-joint.toml", "--plot",
+                                "tornado=" + (scratch / "a.svg").string()});
   EXPECT_EQ(run.status, 2);
-  EXPECT_THAT(run.out, StartsWith("cannot hunt"));
+  EXPECT_THAT(run.out, StartsWith("comes to rest"));
   EXPECT_THAT(run.err, HasSubstr("--plot = tornado: must be left out"));
 }
 

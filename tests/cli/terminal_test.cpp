@@ -13,21 +13,22 @@ constexpr double megabyte = 1e6;
 
 bool goes_on(LimitedWork& work) { return TerminalProgress(work, "Searching").go_on(0.1); }
 
+/// What stops work with these limits at once.
+std::string what_stops(const Limits& limits) {
+  LimitedWork work(limits);
+  EXPECT_EQ(goes_on(work), work.why().empty());
+  return work.why();
+}
+
 TEST(LimitedWork, StopsOnceTheProgramHasTakenMoreMemoryThanItMay) {
   if (!std::filesystem::exists("/proc/self/status")) GTEST_SKIP() << "needs /proc";
-  LimitedWork much({.bytes = 1e6 * megabyte});
-  EXPECT_TRUE(goes_on(much));
-  LimitedWork little({.bytes = 0.5 * megabyte});
-  EXPECT_FALSE(goes_on(little));
-  EXPECT_EQ(little.why(), "--memory-limit");
+  EXPECT_EQ(what_stops({.bytes = 1e6 * megabyte}), "");
+  EXPECT_EQ(what_stops({.bytes = 0.5 * megabyte}), "--memory-limit");
 }
 
 TEST(LimitedWork, StopsAfterItsTime) {
-  LimitedWork long_work({.seconds = 1e300});
-  EXPECT_TRUE(goes_on(long_work));
-  LimitedWork none({.seconds = 0.0});
-  EXPECT_FALSE(goes_on(none));
-  EXPECT_EQ(none.why(), "--time-limit");
+  EXPECT_EQ(what_stops({.seconds = 1e300}), "");
+  EXPECT_EQ(what_stops({.seconds = 0.0}), "--time-limit");
 }
 
 TEST(LimitedWork, StopsAtASignalAndStaysStopped) {

@@ -188,6 +188,8 @@ class GridPart {
     for (std::size_t row = 0; row < servos_.size(); ++row) complete(columns_, row);
     const FigureColumns figures(columns_, points_.drive());
     for (std::size_t row = 0; !figures.are_none() && row < servos_.size(); ++row) {
+      count.stopped = !progress.go_on(0.0);
+      if (count.stopped) break;
       figures.write(row, points_.drive_at(walk_again.values()));
       walk_again.go_on();
     }
@@ -394,10 +396,11 @@ GridCount evaluate_parts(const GridPoints& points, const std::vector<std::size_t
     {
       const std::scoped_lock lock(adding);
       total.add(of_part);
+      total.stopped = total.stopped || of_part.stopped;
     }
     searches.finish(rows - part.to_search());
   });
-  total.stopped = searches.is_stopped() && searches.done() < count;
+  total.stopped = total.stopped || (searches.is_stopped() && searches.done() < count);
   return total;
 }
 
