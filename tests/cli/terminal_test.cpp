@@ -16,7 +16,8 @@ bool goes_on(LimitedWork& work) { return TerminalProgress(work, "Searching").go_
 /// What stops work with these limits at once.
 std::string what_stops(const Limits& limits) {
   LimitedWork work(limits);
-  EXPECT_EQ(goes_on(work), work.why().empty());
+  const bool is_going_on = goes_on(work);
+  EXPECT_EQ(is_going_on, work.why().empty());
   return work.why();
 }
 
