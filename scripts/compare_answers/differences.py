@@ -372,13 +372,17 @@ def of_estimate(name, old, new, is_searched):
 # ---- grids --------------------------------------------------------------------------------------
 CEILINGS = ("ceiling", "motor_ceiling", "effort_ceiling")
 OF_A_STEP = ("rise_time", "overshoot", "settling_time")
+NEWER = ("time_to_rest",)  # than the record
 
 
 def of_grid(old, new):
     yield from columns("axis ", *both(old, new, "axes"), 1e-12)
-    yield from words("", old, new, ["certainty", "units"])
+    yield from words("", old, new, ["certainty"])
+    units = ({name: unit for name, unit in side.get("units", {}).items() if name not in NEWER}
+             for side in (old, new))
+    yield from words("", *({"units": of_side} for of_side in units), ["units"])
     before, after = both(old, new, "columns")
-    for name in {**before, **after}:
+    for name in ({**before, **after}).keys() - set(NEWER):
         one, other = both(before, after, name, [])
         if len(one) != len(other):
             yield f"column {name}", "count", 1.0, len(one), len(other)

@@ -105,7 +105,10 @@ std::optional<ShrinkingSteps> creeping(const Watch& watch, const SearchSetting& 
   const bool is_by_one_ratio = std::abs(limit_of(first.value, second.value, third.value)) <
                                tolerances.vanishing_limit * std::abs(third.value);
   if (!shrinks || !stays_longer || !is_by_one_ratio) return std::nullopt;
-  return ShrinkingSteps{.size = std::abs(third.value),
+  // Behind the motor the load moves no farther than the motor still does.
+  const bool is_of_load = setting.drive.sensing.load_share_of_position > 0.5;
+  return ShrinkingSteps{.final = is_of_load ? 0.0 : setting.load.value.at(watch.here.numbers),
+                        .size = std::abs(third.value),
                         .ratio = third.value / second.value,
                         .duration = third.duration(),
                         .duration_ratio = third.duration() / second.duration()};
