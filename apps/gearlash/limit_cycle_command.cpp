@@ -152,11 +152,13 @@ void add_changes(Result& result, const Drive& drive, const Changes& wanted, Limi
   }
 }
 
-Result analysed(const WrittenDrive& written, const Provenance& provenance, LimitedWork& work) {
+/// `specification`: rad, or 0.
+Result analysed(const WrittenDrive& written, double specification, const Provenance& provenance,
+                LimitedWork& work) {
   Result result;
   {
     TerminalProgress progress(work, "Searching");
-    Wanted wanted{.ceiling = true, .quantization = true};
+    Wanted wanted{.ceiling = true, .quantization = true, .rest_band = specification};
     // A third for a motion, what is made of it included, beside the tool itself.
     const double for_motion = (work.limits().bytes - tool_bytes) / 3.0;
     if (for_motion < static_cast<double>(wanted.motion_bytes)) {
@@ -226,7 +228,7 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
   faults.require_none();
 
   LimitedWork work(limits);
-  Result result = analysed(*written, provenance, work);
+  Result result = analysed(*written, specification.value_or(0.0), provenance, work);
   result.report.specification = specification;
   result.report.measured = measured;
   if (changes.margins || changes.sensitivities) add_changes(result, written->drive, changes, work);

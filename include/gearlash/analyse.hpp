@@ -26,6 +26,9 @@ struct Wanted {
   bool borders = true;
   /// Answer::is_quantization: a second search where a drive hunts by a few encoder steps.
   bool quantization = false;
+  /// rad: a start has come to rest when the load stays as near as this to its final position
+  /// (Rest::time): the specification. 0: half an encoder step, else 1 % of the backlash.
+  double rest_band = 0.0;
   /// Bytes that a search keeps of a motion at most, but for its last thousand steps. It takes some
   /// two to three times as many in all.
   std::size_t motion_bytes = 64'000'000;

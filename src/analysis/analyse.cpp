@@ -481,6 +481,7 @@ Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress, 
           {.starts = way.starts,
            .is_enough = way.is_enough,
            .most_edges = wanted.borders ? drive::AttractorOptions{}.most_edges : 0,
+           .band = wanted.rest_band,
            .budget = {.bytes_kept = wanted.motion_bytes}},
           progress);
     }

@@ -450,6 +450,20 @@ std::string text_of_runaway(const AnswerReport& report) {
   return rests == 0 ? away + of : fmt::format("comes to rest from {}{}, {}", rests, of, away);
 }
 
+/// ", after up to 12 min", where that is minutes or more.
+std::string minutes_text(const AnswerReport& report) {
+  const std::optional<double> time = report.answer.value(Quantity::time_to_rest);
+  constexpr double minute = 60.0;
+  if (report.is_normalized || !time || *time < minute) return "";
+  constexpr double hour = 60.0;  // min
+  constexpr double day = 24.0 * hour;
+  const double minutes = *time / minute;
+  const auto [unit, name] = minutes < 2.0 * hour  ? std::pair(1.0, "min")
+                            : minutes < 2.0 * day ? std::pair(hour, "h")
+                                                  : std::pair(day, "days");
+  return fmt::format(", after up to {:.2g} {}", minutes / unit, name);
+}
+
 std::string headline_of_verdict(const AnswerReport& report) {
   const Answer& answer = report.answer;
   std::string verdict = name_of(answer.verdict);
@@ -475,7 +489,7 @@ std::string headline_of_verdict(const AnswerReport& report) {
       const std::size_t all = answer.search->starts.size();
       const std::size_t some = answer.search->count("rest");
       const std::string of = some < all ? fmt::format("{} of", some) : "all";
-      return fmt::format("{} from {} {}", verdict, of, starts_text(all));
+      return fmt::format("{} from {} {}{}", verdict, of, starts_text(all), minutes_text(report));
     }
     case Verdict::cannot_hunt:
       if (answer.engine == Engine::general) {

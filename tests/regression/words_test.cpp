@@ -173,5 +173,20 @@ TEST(Headline, OfADriveThatWindsUpBeginsWithItsRest) {
   EXPECT_THAT(to_json(drive, answer), HasSubstr("\"verdict\": \"runs away if disturbed\""));
 }
 
+// ---- time to rest -------------------------------------------------------------------------------
+
+TEST(TimeToRestInWords, IsInTheHeadlineFromAMinuteOn) {
+  const Drive slow = drive_of(root / "tests/regression/data/ends/rests-after-minutes.toml");
+  const Answer answer = analyse(slow);
+  EXPECT_THAT(headline(slow, answer), StartsWith("comes to rest from all 28 starts, after up to "));
+  EXPECT_THAT(headline(slow, answer), HasSubstr(" min"));
+  // A wider band is reached sooner.
+  const Answer wide = analyse(slow, {.rest_band = 60.0 * arcmin});
+  ASSERT_TRUE(wide.rest && wide.rest->time);
+  EXPECT_EQ(wide.rest->time->band, 60.0 * arcmin);
+  EXPECT_LT(wide.rest->time->longest, 60.0);
+  EXPECT_THAT(headline(slow, wide), Not(HasSubstr(" after ")));
+}
+
 }  // namespace
 }  // namespace gearlash::words_test
