@@ -130,6 +130,27 @@ TEST(ComputedRest, IsInPiecesWhereTheTorqueIsLimited) {
   expect_near(of_current[1].load, -1.05, -0.95);
 }
 
+/// The motor holds −1 ± 0.3 N m of 2 N m ± 0.1 N m, and a spring of 4 N m/rad the rest. Its
+/// integral winds up, or is held back.
+TEST(ComputedRest, IsWhereAnIntegralWindsUpBehindALimit) {
+  drive::ReducedDrive drive = dry_drive();
+  drive.load_torque = 2.0;
+  drive.gravity.stiffness = 4.0;
+  drive.torque_limit = 1.0;
+  for (const double tracking_time : {0.0, 0.2}) {
+    drive.controller = drive::ProportionalIntegralDerivative{
+        .proportional = 10.0, .integral = 3.0, .tracking_time = tracking_time};
+    for (const bool is_sampled : {false, true}) {
+      drive.sampling.reset();
+      if (is_sampled) drive.sampling = drive::Sampling{.period = 0.01};
+      ASSERT_TRUE(rest_of(drive));
+      EXPECT_EQ(rest_of(drive)->kind, RestKind::torque_limit);
+      EXPECT_EQ(rest_of(drive)->side, -1.0);
+      expect_near(rest_of(drive)->load, 0.15, 0.35);
+    }
+  }
+}
+
 /// Gain 10 N m/rad, frictions 0.4 N m together: beyond the band it stands as far off as without it.
 TEST(ComputedRest, OfADeadBandIsAPieceOfItsOwn) {
   drive::ReducedDrive drive = dry_drive();

@@ -38,7 +38,7 @@ TEST(LimitsOfWork, StopEachVerbWhichPrintsWhatIsKnown) {
                    "Of the 0 samples, out of 64, that were answered before the stop\n",
                    "64 of 64 samples are not answered"),
         std::tuple("compare" + joint, "", "searches are not complete"),
-        std::tuple("describe" + joint, "exact: undecided", "the search is not complete"),
+        std::tuple("describe" + joint, "undecided; stopped early", "the search is not complete"),
         std::tuple(std::string("thesis run --all"), "Errors of the program's amplitudes",
                    "1 of 160 servos are run"),
         std::tuple(std::string("thesis run --damping 0.19 --inertia-ratio 2 --friction-ratio 0.1"),
@@ -106,7 +106,7 @@ TEST(LimitsOfWork, OfMemory) {
       run_tool({"describe", "tests/regression/data/continuous/slides-for-hours.toml",
                 "--memory-limit", "100 MB"});
   EXPECT_EQ(run.status, 1);
-  EXPECT_THAT(run.out, StartsWith("exact: undecided"));
+  EXPECT_THAT(run.out, StartsWith("undecided; stopped early"));
   EXPECT_THAT(run.err, HasSubstr("stopped by --memory-limit: the search is not complete"));
 }
 

@@ -281,7 +281,18 @@ std::vector<JudgedValue> of_numbers(AnalysedDrives& analysed, FeasibleValues& fo
   return tried;
 }
 
-/// Values at the ends of a rising grid whose drive is unsound are no part of it, unless all are.
+/// The last value towards an unsound one of which the drive is sound: `sound` itself towards 0.
+template <class IsSound>
+double last_sound(double sound, double unsound, IsSound&& is_sound) {
+  constexpr int bisections = 40;
+  for (int i = 0; i < bisections && unsound != 0.0; ++i) {
+    const double middle = 0.5 * (sound + unsound);
+    (is_sound(middle) ? sound : unsound) = middle;
+  }
+  return sound;
+}
+
+/// Cuts a rising grid to where the drive is sound, unless it is so nowhere.
 void cut_to_sound_drives(const Axis& axis, const Drive& drive, FeasibleValues& found) {
   const auto is_sound = [&](double value) {
     Drive changed = drive;
@@ -292,7 +303,16 @@ void cut_to_sound_drives(const Axis& axis, const Drive& drive, FeasibleValues& f
   const auto first = std::find_if(grid.begin(), grid.end(), is_sound);
   const auto last = std::find_if(grid.rbegin(), grid.rend(), is_sound);
   if (first == grid.end()) return;
-  grid = std::vector<double>(first, last.base());
+  std::vector<double> sound(first, last.base());
+  if (first != grid.begin()) {
+    const double end = last_sound(*first, *(first - 1), is_sound);
+    if (end < sound.front()) sound.insert(sound.begin(), end);
+  }
+  if (last != grid.rbegin()) {
+    const double end = last_sound(*last, *(last - 1), is_sound);
+    if (end > sound.back()) sound.push_back(end);
+  }
+  grid = std::move(sound);
   found.searched = {grid.front(), grid.back()};
 }
 

@@ -31,13 +31,16 @@ struct StandingRequests {
   std::vector<Vector2d> directions;  ///< none, one, or two that span all
 };
 
+LinearController controller_of(const ReducedDrive& drive) {
+  return drive.sampling ? drive::sampled_controller(drive.controller, *drive.sampling)
+                        : drive::linear_controller(drive.controller);
+}
+
 /// Of z′ = A z + B (r, y) + w (τ − C z − D (r, y)), 0 at rest, or z with a clock, where τ is the
 /// limit and w the anti-windup's; empty where no state stands. `limit`: ±torque limit, or none.
 std::optional<StandingRequests> standing_requests(const ReducedDrive& drive, double reference,
                                                   std::optional<double> limit) {
-  const LinearController controller =
-      drive.sampling ? drive::sampled_controller(drive.controller, *drive.sampling)
-                     : drive::linear_controller(drive.controller);
+  const LinearController controller = controller_of(drive);
   const std::size_t order = controller.order();
   const auto size = static_cast<Eigen::Index>(order);
   const auto weight = [&](std::size_t i) {
@@ -80,6 +83,35 @@ std::optional<StandingRequests> standing_requests(const ReducedDrive& drive, dou
     if (is_new) requests.directions.push_back(direction);
   }
   return requests;
+}
+
+/// 1/s or 1 a tick: the rate at which the requested torque rises in the end, for a reading 1 rad
+/// above the one with which the controller stands: C v α, where A v = 0 and A z + B_y = α v. 0
+/// where the controller has no integral, or more than one.
+double winding_rate(const ReducedDrive& drive) {
+  const LinearController controller = controller_of(drive);
+  const auto size = static_cast<Eigen::Index>(controller.order());
+  Eigen::MatrixXd matrix(size, size + 1);
+  VectorXd by_reading(size);
+  for (Eigen::Index row = 0; row < size; ++row) {
+    const auto i = static_cast<std::size_t>(row);
+    for (Eigen::Index column = 0; column < size; ++column) {
+      const double kept = drive.sampling && row == column ? 1.0 : 0.0;
+      matrix(row, column) = controller.state_matrix[i][static_cast<std::size_t>(column)] - kept;
+    }
+    by_reading[row] = -controller.input_matrix[i][1];
+  }
+  const auto still = all_solutions(matrix.leftCols(size), VectorXd::Zero(size));
+  if (size == 0 || !still || still->directions.cols() != 1) return 0.0;
+  const VectorXd integral = still->directions.col(0);
+  matrix.col(size) = -integral;
+  const auto winding = all_solutions(matrix, by_reading);
+  if (!winding || winding->directions.row(size).cwiseAbs().sum() > 1e-9) return 0.0;
+  double torque = 0.0;
+  for (Eigen::Index i = 0; i < size; ++i) {
+    torque += controller.output[static_cast<std::size_t>(i)] * integral[i];
+  }
+  return torque * winding->one[size];
 }
 
 // ---- the drive ----------------------------------------------------------------------------------
@@ -159,9 +191,9 @@ class Equilibria {
       const auto limit =
           level.is_asked_for_less ? std::optional(level.side * drive_.torque_limit) : std::nullopt;
       const auto requests = standing_requests(drive_, reference_, limit);
-      if (!requests) continue;
       for (const ErrorBranch& branch : branches_of(drive_.error_shape)) {
-        add_with(level, branch, *requests);
+        if (requests) add_with(level, branch, *requests);
+        if (!limit || controller_of(drive_).anti_windup.empty()) add_winding(level, branch);
       }
     }
     return pieces_;
@@ -182,6 +214,19 @@ class Equilibria {
       }
     }
     if (load_.low <= load_.high) merge(kind, level.side);
+  }
+
+  /// Those at a limit behind which the integral winds up for ever.
+  void add_winding(const TorqueLevel& level, const ErrorBranch& branch) {
+    const double rate = winding_rate(drive_);
+    const auto standing_still = standing_requests(drive_, reference_, std::nullopt);
+    if (level.side == 0.0 || !(branch.gain > 0.0) || rate == 0.0 || !standing_still) return;
+    ErrorBranch winding = branch;
+    const double still = (standing_still->one[0] - reference_ + branch.offset) / branch.gain;
+    double& end = rate * level.side > 0.0 ? winding.low : winding.high;
+    end = rate * level.side > 0.0 ? std::max(end, still) : std::min(end, still);
+    const StandingRequests any{standing_still->one, {Vector2d(1.0, 0.0), Vector2d(0.0, 1.0)}};
+    if (winding.low < winding.high) add_with(level, winding, any);
   }
 
   void merge(RestKind kind, double side) {
