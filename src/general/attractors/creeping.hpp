@@ -28,9 +28,8 @@ double duration_of(const std::vector<Standstill>& all);
 
 /// The last standstill, if the position that is measured stands ever longer, ever nearer to the
 /// reference, by one ratio within the gap, and each time for longer than a swing of the linear
-/// loop. If slips are in
-/// proportion to the errors before them, all that follow shrink by that ratio (Armstrong-Hélouvry &
-/// Amin 1996; Ruderman, arXiv 2006.08977). They are so if
+/// loop. If slips are in proportion to the errors before them, all that follow shrink by that ratio
+/// (Armstrong-Hélouvry & Amin 1996; Ruderman, arXiv 2006.08977). They are so if
 ///   dry friction stops the shaft, and has no stiction, by which slips have a size of their own;
 ///   the controller integrates the error, so that nothing else ends a standstill;
 ///   the error is neither rounded by an encoder nor shaped by a dead band or relay.
