@@ -374,6 +374,7 @@ Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive
         encoder_steps(reduced, motion.amplitude, motion.motor_amplitude);
   }
   answer.verdict = verdict_of(search, reduced, answer.irregular);
+  answer.rests_engaged = search.rests_until_disturbed;
   for (const drive::FoundThreshold& found : search.thresholds) {
     const bool runs_away = found.end == drive::MotionEnd::diverges;
     answer.thresholds.push_back({.end = runs_away ? "running away" : "hunting",

@@ -89,6 +89,7 @@ TEST(Ends, SwingsWhoseRatiosScatterVanish) {
 TEST(Ends, WhatSmallDisturbancesLeaveIsNoRest) {
   const Answer answer = answer_of("decays-to-a-rest-that-is-left");
   EXPECT_EQ(answer.verdict, Verdict::hunts);
+  EXPECT_TRUE(answer.rests_engaged);
   EXPECT_FALSE(answer.rest);
   EXPECT_EQ(answer.search->count("cycle"), answer.search->starts.size());
 }

@@ -137,6 +137,9 @@ struct AttractorSearch {
   double settling_time = 0.0;  ///< s, of that loop: 1/slowest decay
   double watch_time = 0.0;     ///< s, the longest that a start is watched if something happens
   bool is_complete = true;     ///< not stopped
+  /// A start rests where its mode ends, with no dry friction, until a small disturbance makes it
+  /// hunt: such a start counts as hunting.
+  bool rests_until_disturbed = false;
 
   std::size_t count(MotionEnd end) const;
 };

@@ -164,7 +164,10 @@ bool StartClassifier::settles(const Watch& watch, const Stretch& stretch, Verdic
     };
     if (!limit || drifts(setting_.load) || drifts(setting_.motor)) return false;
     rest_at(limit->numbers, verdict);
-    if (limit->is_on_border) verdict = disturbed({state.mode, limit->numbers}, verdict);
+    if (limit->is_on_border) {
+      verdict = disturbed({state.mode, limit->numbers}, verdict);
+      if (verdict.end != MotionEnd::rest) search_.rests_until_disturbed = true;
+    }
     return true;
   };
   if (settles_from(watch.here)) return true;

@@ -1,9 +1,14 @@
 #include "drive_score.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <ctime>
+#include <random>
+#include <stdexcept>
 
+#include "following.hpp"
 #include "gearlash/analyse.hpp"
 
 namespace gearlash::oracle {
@@ -40,30 +45,16 @@ std::vector<StartOutcome> own_starts(const Answer& answer, const PlainDrive& dri
 }
 
 std::vector<StartOutcome> compared_starts(const Answer& answer, const PlainDrive& drive,
-                                          std::size_t most) {
+                                          std::optional<std::size_t> most) {
   const std::vector<StartOutcome> all = answer.search && !answer.search->starts.empty()
                                             ? answer.search->starts
                                             : own_starts(answer, drive);
-  if (most == 0 || all.size() <= most) return all;
+  if (!most || all.size() <= *most) return all;
   std::vector<StartOutcome> chosen;
-  for (std::size_t i = 0; i < most; ++i) {
-    chosen.push_back(all[most == 1 ? all.size() / 2 : i * (all.size() - 1) / (most - 1)]);
+  for (std::size_t i = 0; i < *most; ++i) {
+    chosen.push_back(all[*most == 1 ? all.size() / 2 : i * (all.size() - 1) / (*most - 1)]);
   }
   return chosen;
-}
-
-/// The share by which amplitudes may differ.
-double permitted(const ScoredStart& scored, const Answer& answer, const ScoreOptions& options) {
-  if (!scored.start.which) return options.share;
-  const std::size_t which = *scored.start.which;
-  if (scored.start.end == "cycle") {
-    // Neutral cycles are a family, of which one is listed.
-    const bool is_family = answer.cycles[which].stability == Stability::neutral;
-    return is_family ? options.irregular_share : options.share;
-  }
-  const IrregularMotion& motion = answer.irregular[which];
-  const double extent = std::max(motion.amplitude, motion.motor_amplitude.value_or(0.0));
-  return options.irregular_share + 2.0 * motion.amplitude_deviation.value_or(0.0) / extent;
 }
 
 void state_amplitudes(const Answer& answer, ScoredStart& scored) {
@@ -80,11 +71,11 @@ void state_amplitudes(const Answer& answer, ScoredStart& scored) {
   }
 }
 
-Agreement agreement_of(const ScoredStart& scored, const PlainDrive& drive, double share) {
+Agreement agreement_of(const ScoredStart& scored, const Ending& ending, const PlainDrive& drive,
+                       double share, double irregular_share, bool rests_engaged) {
   const std::string& end = scored.start.end;
   if (end == "undecided") return Agreement::undecided;
-  const Ending& ending = scored.ending;
-  if (!agree(ending, scored.ending_of_half_step, drive, share)) return Agreement::no_measure;
+  if (ending.kind == EndKind::unclear) return Agreement::no_measure;
   const bool rests = ending.kind == EndKind::rest || ending.kind == EndKind::fades;
   if (end == "rest") {
     if (!rests) return Agreement::wrong;
@@ -93,19 +84,26 @@ Agreement agreement_of(const ScoredStart& scored, const PlainDrive& drive, doubl
   if (end == "diverges") {
     return ending.kind == EndKind::runs_away ? Agreement::right : Agreement::wrong;
   }
+  if (rests && rests_engaged) return Agreement::right;  // small disturbances leave that rest
   const Ending stated{.kind = EndKind::hunts,
                       .amplitude = scored.amplitude,
                       .motor_amplitude = scored.motor_amplitude};
-  return agree(stated, ending, drive, share) ? Agreement::right : Agreement::wrong;
+  if (agree(stated, ending, drive, share)) return Agreement::right;
+  return agree(stated, ending, drive, irregular_share) ? Agreement::right_of_other_size
+                                                       : Agreement::wrong;
 }
 
 ScoredStart scored_start(const StartOutcome& start, const Answer& answer, const PlainDrive& drive,
                          const ScoreOptions& options) {
   ScoredStart scored{.start = start};
+  if (start.end == "undecided") return scored;
   const ShaftReadings shafts{start.motor_position, start.motor_speed, start.load_position,
                              start.load_speed};
   state_amplitudes(answer, scored);
   EndingOptions whole = options.ending;
+  const double times = start.end == "rest" ? options.times_of_rest : options.times_of_hunting;
+  whole.first_time =
+      std::min(std::max(whole.first_time, times * start.watched), whole.longest_time);
   // The extremes of slow irregular motion need many of its periods.
   constexpr double periods = 200.0;
   if (scored.frequency > 0.0) {
@@ -113,10 +111,149 @@ ScoredStart scored_start(const StartOutcome& start, const Answer& answer, const 
   }
   EndingOptions half = whole;
   half.longest_step *= 0.5;
+  const double share = permitted_share(answer, start, options.share, options.irregular_share);
+  const auto judged = [&](const Ending& ending) {
+    return agreement_of(scored, ending, drive, share, options.irregular_share,
+                        answer.rests_engaged);
+  };
   scored.ending = ending_of(drive, shafts, whole);
-  scored.ending_of_half_step = ending_of(drive, shafts, half);
-  scored.agreement = agreement_of(scored, drive, permitted(scored, answer, options));
+  scored.agreement = judged(scored.ending);
+  if (scored.agreement == Agreement::wrong) {  // a chaotic transient may last much longer
+    whole.first_time = half.first_time = 4.0 * scored.ending.time;
+    whole.longest_time = half.longest_time = std::max(whole.longest_time, 4.0 * scored.ending.time);
+    scored.ending = ending_of(drive, shafts, whole);
+    scored.agreement = judged(scored.ending);
+  }
+  if (scored.agreement == Agreement::wrong) {
+    scored.ending_of_half_step = ending_of(drive, shafts, half);
+    if (!agree(scored.ending, scored.ending_of_half_step, drive, share)) {
+      scored.agreement = Agreement::no_measure;
+    }
+  }
   return scored;
+}
+
+// ---- other starts -------------------------------------------------------------------------------
+
+ShaftReadings random_start(std::mt19937_64& engine, const PlainDrive& drive) {
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * std::ldexp(static_cast<double>(engine() >> 11U), -53);
+  };
+  const double sign = between(0.0, 1.0) < 0.5 ? -1.0 : 1.0;
+  const double way = sign * drive.backlash * std::exp(between(std::log(0.05), std::log(100.0)));
+  const bool moves = between(0.0, 1.0) < 0.3;
+  const double speed = way * std::exp(between(0.0, std::log(100.0)));
+  ShaftReadings start;
+  start.load_position = drive.reference + way;
+  start.motor_position = start.load_position + drive.backlash * between(-0.5, 0.5);
+  if (moves) start.load_speed = start.motor_speed = between(0.0, 1.0) < 0.5 ? -speed : speed;
+  return start;
+}
+
+/// Whether a motion may end so by the verdict.
+bool permits(const Answer& answer, EndKind kind) {
+  if (kind == EndKind::unclear) return true;
+  const bool rests = kind == EndKind::rest || kind == EndKind::fades;
+  switch (answer.verdict) {
+    case Verdict::cannot_hunt:
+    case Verdict::comes_to_rest:
+      return rests;
+    case Verdict::hunts:
+    case Verdict::hunts_irregularly:
+      return kind == EndKind::hunts || (rests && (answer.rest || answer.rests_engaged));
+    case Verdict::hunts_if_disturbed:
+      return kind != EndKind::runs_away;
+    case Verdict::forced:
+    case Verdict::undamped:
+      return kind != EndKind::runs_away;
+    case Verdict::runs_away:
+    case Verdict::grows_without_bound:
+      return kind == EndKind::runs_away;
+    case Verdict::runs_away_if_disturbed:
+    case Verdict::undecided:
+      break;
+  }
+  return true;
+}
+
+bool is_listed(const Answer& answer, const Ending& ending, const PlainDrive& drive,
+               const ScoreOptions& options) {
+  const auto agrees = [&](double load, std::optional<double> motor, double share) {
+    const Ending stated{.kind = EndKind::hunts,
+                        .amplitude = load,
+                        .motor_amplitude = motor.value_or(ending.motor_amplitude)};
+    return agree(stated, ending, drive, share);
+  };
+  for (const Cycle& cycle : answer.cycles) {
+    if (agrees(cycle.amplitude, cycle.motor_amplitude, options.share)) return true;
+  }
+  for (const IrregularMotion& motion : answer.irregular) {
+    if (agrees(motion.amplitude, motion.motor_amplitude, 2.0 * options.irregular_share)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+ShaftReadings moved(ShaftReadings start, const PlainDrive& drive, double share) {
+  const double way = share * (start.load_position - drive.reference);
+  start.load_position += way;
+  start.motor_position += way;
+  start.load_speed *= 1.0 + share;
+  start.motor_speed *= 1.0 + share;
+  return start;
+}
+
+std::string text_of(const ShaftReadings& start, const Ending& ending) {
+  std::array<char, 300> line{};
+  std::snprintf(
+      line.data(), line.size(),
+      "load %.9g at %.6g, motor %.9g at %.6g: %s, load ±%.4g motor ±%.4g %.4g Hz after %.4g s",
+      start.load_position, start.load_speed, start.motor_position, start.motor_speed,
+      name_of(ending.kind), ending.amplitude, ending.motor_amplitude, ending.frequency,
+      ending.time);
+  return line.data();
+}
+
+void follow_random_start(const ShaftReadings& start, const Answer& answer, const PlainDrive& drive,
+                         const ScoreOptions& options, RandomStarts& random) {
+  ++random.followed;
+  const Ending ending = ending_of(drive, start, options.ending);
+  if (ending.kind == EndKind::unclear) {
+    ++random.unclear;
+    return;
+  }
+  if (permits(answer, ending.kind)) {
+    const bool is_other =
+        ending.kind == EndKind::hunts && !is_listed(answer, ending, drive, options);
+    if (is_other) ++random.unlisted;
+    return;
+  }
+  EndingOptions half = options.ending;
+  half.longest_step *= 0.5;
+  const Ending finer = ending_of(drive, start, half);
+  if (!agree(ending, finer, drive, options.irregular_share)) {
+    ++random.unclear;
+    return;
+  }
+  for (const double share : {-0.01, 0.01}) {
+    const Ending beside = ending_of(drive, moved(start, drive, share), options.ending);
+    if (permits(answer, beside.kind)) {
+      ++random.near_border;
+      return;
+    }
+  }
+  random.contradictions.push_back(text_of(start, ending));
+}
+
+RandomStarts follow_random_starts(const Answer& answer, const PlainDrive& drive,
+                                  const ScoreOptions& options) {
+  RandomStarts random;
+  std::mt19937_64 engine(options.seed);
+  for (std::size_t i = 0; i < options.random_starts; ++i) {
+    follow_random_start(random_start(engine, drive), answer, drive, options, random);
+  }
+  return random;
 }
 
 }  // namespace
@@ -127,6 +264,8 @@ const char* name_of(Agreement agreement) {
       return "right";
     case Agreement::right_as_it_fades:
       return "right, as it fades";
+    case Agreement::right_of_other_size:
+      return "right, of another size";
     case Agreement::wrong:
       return "WRONG";
     case Agreement::undecided:
@@ -150,14 +289,19 @@ bool DriveScore::is_decided() const {
 
 DriveScore score_of(const Drive& drive, const ScoreOptions& options) {
   DriveScore score;
-  const PlainDrive plain = plain_drive(drive);
   Deadline deadline(options.time_limit);
   const double before = processor_time();
   score.answer = analyse(drive, {.proofs = false}, deadline);
   score.processor_seconds = processor_time() - before;
   if (score.answer.search) score.undecided = score.answer.search->count("undecided");
-  for (const StartOutcome& start : compared_starts(score.answer, plain, options.starts)) {
-    score.starts.push_back(scored_start(start, score.answer, plain, options));
+  try {
+    const PlainDrive plain = plain_drive(drive);
+    for (const StartOutcome& start : compared_starts(score.answer, plain, options.starts)) {
+      score.starts.push_back(scored_start(start, score.answer, plain, options));
+    }
+    score.random = follow_random_starts(score.answer, plain, options);
+  } catch (const std::invalid_argument& refused) {
+    score.refused = refused.what();
   }
   return score;
 }

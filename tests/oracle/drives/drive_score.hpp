@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +15,8 @@ namespace gearlash::oracle {
 
 enum class Agreement {
   right,
-  right_as_it_fades,  ///< the library calls it rest; in the simulator the motion shrinks, small
+  right_as_it_fades,    ///< the library calls it rest; in the simulator the motion shrinks, small
+  right_of_other_size,  ///< both hunt, by amplitudes that agree to the share of irregular motion
   wrong,
   undecided,   ///< by the library
   no_measure,  ///< the simulator disagrees with itself at half the step, or is unclear
@@ -25,17 +28,28 @@ struct ScoredStart {
   StartOutcome start{};
   Agreement agreement = Agreement::undecided;
   Ending ending{};
-  Ending ending_of_half_step{};
-  double amplitude = 0.0;  ///< rad, of the load, that the library states
+  Ending ending_of_half_step{};  ///< where `ending` disagrees with the library
+  double amplitude = 0.0;        ///< rad, of the load, that the library states
   double motor_amplitude = 0.0;
   double frequency = 0.0;  ///< Hz, that the library states
+};
+
+/// Other starts, which the library did not follow, beside its verdict.
+struct RandomStarts {
+  std::size_t followed = 0;
+  std::size_t unclear = 0;      ///< to the simulator, or it disagrees with itself
+  std::size_t near_border = 0;  ///< lead elsewhere 1 % nearer to the reference or further from it
+  std::size_t unlisted = 0;     ///< hunt as the verdict says, by an amplitude that is not listed
+  std::vector<std::string> contradictions{};  ///< of the verdict, in words
 };
 
 struct DriveScore {
   Answer answer{};
   double processor_seconds = 0.0;  ///< of the library
   std::size_t undecided = 0;       ///< of all starts of the library
+  std::string refused{};           ///< why the simulator does not know it; then it follows no start
   std::vector<ScoredStart> starts{};
+  RandomStarts random{};
 
   [[nodiscard]] std::size_t count(Agreement agreement) const;
   /// A verdict, no undecided start, and not stopped.
@@ -43,15 +57,23 @@ struct DriveScore {
 };
 
 struct ScoreOptions {
-  std::size_t starts = 6;        ///< compared, evenly spread over the library's own; 0: all
-  double time_limit = 0.0;       ///< processor seconds of the library for a drive; 0: none
-  double share = 0.02;           ///< permitted difference of amplitudes, or an encoder step
-  double irregular_share = 0.2;  ///< likewise of irregular motion, besides twice its deviation
+  /// Compared, evenly spread over the library's own; empty: all.
+  std::optional<std::size_t> starts = 6;
+  double time_limit = 0.0;        ///< processor seconds of the library for a drive; 0: none
+  std::size_t random_starts = 0;  ///< besides
+  std::uint64_t seed = 1;         ///< of these
+  double share = 0.02;            ///< permitted difference of amplitudes, or an encoder step
+  double irregular_share = 0.2;   ///< likewise of irregular motion, besides twice its deviation
+  /// A start is followed so many times longer than the library watched it, up to
+  /// `ending.longest_time`: called rest, and hunting.
+  double times_of_rest = 10.0;
+  double times_of_hunting = 4.0;
   EndingOptions ending{};
 };
 
 /// A start is right if both say rest, both say running away, or both say hunting with amplitudes of
-/// load and motor that agree. An answer without a search is compared from starts at rest.
+/// load and motor that agree. An answer without a search is compared from starts at rest. A random
+/// start is 0.05 … 100 gaps away, at rest or moving, anywhere in the gap.
 [[nodiscard]] DriveScore score_of(const Drive& drive, const ScoreOptions& options = {});
 
 }  // namespace gearlash::oracle

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <random>
+#include <vector>
 
 namespace gearlash::oracle {
 namespace {
@@ -172,29 +174,245 @@ void draw_gravity(Dice& dice, Drive& drive) {
   drive.load.gravity_angle = Dice::rounded(torque < 0.0 ? angle : angle + std::numbers::pi);
 }
 
-}  // namespace
+enum class Law : std::uint8_t { cascade, pid };
 
-Drive random_drive(std::uint64_t seed) {
-  Dice dice(seed);
-  Drive drive;
+Scale draw_drive(Dice& dice, Drive& drive, std::optional<Law> law = {}) {
   Scale scale = draw_mechanics(dice, drive);
   draw_contact(dice, drive, scale);
   draw_sensor(dice, drive);
   draw_sampling(dice, drive);
-  if (dice.chance(0.7)) {
+  const Law drawn = dice.chance(0.7) ? Law::cascade : Law::pid;
+  if (law.value_or(drawn) == Law::cascade) {
     draw_cascade(dice, drive, scale);
   } else {
     draw_pid(dice, drive, scale);
   }
   draw_gravity(dice, drive);
+  return scale;
+}
+
+void take_computer_away(Drive& drive) {
+  drive.sampling.reset();
+  drive.sensor.encoder = {};
+  drive.sensor.speed_encoder = {};
+}
+
+void let_friction_fall(Dice& dice, Friction& friction, double speed) {
+  friction.breakaway = friction.coulomb * dice.between(1.05, 1.6);
+  friction.stribeck_speed = speed;
+}
+
+Drive filtered_cascade(Dice& dice) {
+  Drive drive;
+  draw_drive(dice, drive, Law::cascade);
+  auto& cascade = std::get<CascadeController>(drive.controller.law);
+  const double inertia =
+      drive.motor.inertia + drive.load.inertia / (drive.gearbox.ratio * drive.gearbox.ratio);
+  cascade.filter = inertia / cascade.speed / dice.between(2.5, 10.0);
+  const double speed = dice.log_between(0.1, 30.0);  // of the motor
+  let_friction_fall(dice, drive.motor.friction, speed);
+  let_friction_fall(dice, drive.load.friction, speed / drive.gearbox.ratio);
+  return drive;
+}
+
+Drive weight_at_limit(Dice& dice) {
+  Drive drive;
+  draw_drive(dice, drive, Law::pid);
+  drive.load_torque.reset();
+  drive.load.gravity = *drive.motor.limit * drive.gearbox.ratio * dice.between(0.05, 0.4);
+  drive.load.gravity_angle = dice.between(-1.2, 1.2);
+  const double holding = drive.load.gravity * std::cos(drive.load.gravity_angle);
+  drive.motor.limit = Dice::rounded(holding / drive.gearbox.ratio / dice.between(0.6, 1.1));
+  const double step = drive.sensor.encoder.counts_per_turn
+                          ? 2.0 * std::numbers::pi / *drive.sensor.encoder.counts_per_turn
+                          : 0.0;
+  const double counts = std::nearbyint(dice.between(1.0, 5.0));
+  if (dice.chance(0.5)) drive.controller.dead_band.width = counts * step;
+  if (dice.chance(0.3)) drive.controller.dead_band.form = DeadBandForm::whole;
+  if (dice.chance(0.3)) drive.controller.compensation.friction = drive.motor.friction.coulomb;
+  if (dice.chance(0.3)) {
+    drive.controller.compensation.backlash = drive.gearbox.backlash * dice.between(0.3, 1.2);
+  }
+  return drive;
+}
+
+/// x′ = A x + B u, y = C x + D u, of one input and output.
+struct System {
+  std::vector<std::vector<double>> A{};
+  std::vector<double> B{}, C{};
+  double D = 1.0;
+};
+
+/// `second` receives the output of `first`.
+System in_series(const System& first, const System& second) {
+  const std::size_t n = first.A.size();
+  const std::size_t m = second.A.size();
+  System all{.A = std::vector(n + m, std::vector(n + m, 0.0)), .B = first.B};
+  for (std::size_t i = 0; i < n; ++i) {
+    std::copy(first.A[i].begin(), first.A[i].end(), all.A[i].begin());
+    all.C.push_back(second.D * first.C[i]);
+  }
+  for (std::size_t i = 0; i < m; ++i) {
+    for (std::size_t j = 0; j < n; ++j) all.A[n + i][j] = second.B[i] * first.C[j];
+    std::copy(second.A[i].begin(), second.A[i].end(),
+              all.A[n + i].begin() + static_cast<std::ptrdiff_t>(n));
+    all.B.push_back(second.B[i] * first.D);
+    all.C.push_back(second.C[i]);
+  }
+  all.D = first.D * second.D;
+  return all;
+}
+
+/// (s + zero)/(s + pole), scaled to the gain 1 at high frequencies.
+System first_order(double zero, double pole) {
+  return {.A = {{-pole}}, .B = {1.0}, .C = {zero - pole}, .D = 1.0};
+}
+
+/// (s² + 2 shallow rate s + rate²)/(s² + 2 wide rate s + rate²).
+System notch(double rate, double shallow, double wide) {
+  return {.A = {{0.0, 1.0}, {-rate * rate, -2.0 * wide * rate}},
+          .B = {0.0, 1.0},
+          .C = {0.0, 2.0 * (shallow - wide) * rate},
+          .D = 1.0};
+}
+
+/// Integral and filtered derivative, then up to two notches above the loop's rate.
+Drive state_space(Dice& dice) {
+  Drive drive;
+  Scale scale = draw_mechanics(dice, drive);
+  const double motor_inertia = drive.motor.inertia;
+  const double inertia_ratio = dice.log_between(0.02, 50.0);
+  const double square = drive.gearbox.ratio * drive.gearbox.ratio;
+  drive.load.inertia = inertia_ratio * motor_inertia * square;
+  scale.inertia = motor_inertia * (1.0 + inertia_ratio);
+  drive.contact = RigidContact{dice.between(0.0, 0.9)};
+  draw_sensor(dice, drive);
+  draw_sampling(dice, drive);
+  const double rate = std::min(150.0, 0.03 / drive.sampling->period) * dice.log_between(0.1, 1.0);
+  const double integral_rate = dice.chance(0.7) ? rate / dice.between(8.0, 20.0) : 0.0;
+  const double lead = dice.between(3.0, 6.0);
+  System all = first_order(rate / lead, rate * lead);
+  all = in_series(all, first_order(integral_rate, integral_rate > 0.0 ? 0.0 : 3.0 * lead * rate));
+  const int notches = static_cast<int>(dice.between(0.0, 3.0));
+  for (int i = 0; i < notches; ++i) {
+    const double wide = dice.between(0.3, 0.8);
+    all = in_series(all, notch(rate * dice.between(4.0, 10.0), 0.2 * wide, wide));
+  }
+  StateSpaceController law{.gain = scale.inertia * rate * rate * lead, .A = all.A};
+  for (const double one : all.B) law.B.push_back({one});
+  law.C = all.C;
+  law.D = {all.D};
+  drive.controller = {law, GainShaft::motor};
+  return drive;
+}
+
+Drive moving_reference(Dice& dice) {
+  Drive drive;
+  draw_drive(dice, drive);
+  const double gap = drive.gearbox.backlash;
+  const double way = gap * dice.log_between(0.3, 1000.0);
+  const double rate = 2.0 * std::numbers::pi * dice.log_between(0.05, 5.0);
+  const double kind = dice.between(0.0, 1.0);
+  if (kind < 0.4) {
+    drive.reference = SineSignal{.amplitude = way, .frequency = rate};
+  } else if (kind < 0.7) {
+    drive.reference = RampSignal{.rate = way * rate};
+  } else {
+    drive.reference =
+        TrapezoidSignal{.to = way, .speed = way * rate, .acceleration = 4.0 * way * rate * rate};
+  }
+  return drive;
+}
+
+void multiply_gains(double factor, Controller& controller) {
+  if (auto* cascade = std::get_if<CascadeController>(&controller.law)) {
+    cascade->position *= factor;
+    cascade->speed *= factor;
+    cascade->speed_integral *= factor * factor;
+  } else if (auto* pid = std::get_if<PID>(&controller.law)) {
+    pid->proportional *= factor;
+    pid->integral *= factor * factor;
+    pid->derivative *= factor;
+  }
+}
+
+Drive extreme(Dice& dice) {
+  Drive drive;
+  draw_drive(dice, drive);
+  const double kind = dice.between(0.0, 4.0);
+  if (kind < 1.0) {
+    drive.gearbox.backlash = 1e-6;
+  } else if (kind < 2.0) {
+    const double counts = 2.0 * std::numbers::pi / drive.gearbox.backlash / dice.between(1.5, 30.0);
+    drive.sensor.position = SensorPlace::load;
+    drive.sensor.speed.reset();
+    drive.sensor.speed_encoder = {};
+    drive.sensor.encoder.counts_per_turn = std::ceil(counts);
+  } else if (kind < 3.0) {
+    multiply_gains(dice.log_between(3.0, 30.0), drive.controller);
+  } else {
+    drive.sampling->delay = drive.sampling->period * dice.between(1.0, 8.0);
+  }
+  return drive;
+}
+
+Drive drawn(Dice& dice, DriveKind kind) {
+  switch (kind) {
+    case DriveKind::filtered_cascade:
+      return filtered_cascade(dice);
+    case DriveKind::weight_at_limit:
+      return weight_at_limit(dice);
+    case DriveKind::state_space:
+      return state_space(dice);
+    case DriveKind::moving_reference:
+      return moving_reference(dice);
+    case DriveKind::extreme:
+      return extreme(dice);
+    case DriveKind::industrial:
+      break;
+  }
+  Drive drive;
+  draw_drive(dice, drive);
+  return drive;
+}
+
+}  // namespace
+
+Drive random_drive(std::uint64_t seed) { return random_drive(seed, DriveKind::industrial); }
+
+Drive random_drive(std::uint64_t seed, DriveKind kind) {
+  Dice dice(seed);
+  Drive drive = drawn(dice, kind);
+  // The industrial ones have continuous_drive(); steps and delays need a computer.
+  const bool has_both = kind != DriveKind::industrial && kind != DriveKind::extreme;
+  if (has_both && seed % 2 == 0) take_computer_away(drive);
+  return drive;
+}
+
+Drive frictionless_drive(std::uint64_t seed) {
+  Dice dice(seed);
+  Drive drive;
+  drive.motor.inertia = 1e-4;
+  drive.gearbox = {.ratio = std::nearbyint(dice.log_between(5.0, 160.0)),
+                   .backlash = arcmin * dice.log_between(0.5, 10.0)};
+  const double square = drive.gearbox.ratio * drive.gearbox.ratio;
+  const double inertia_ratio = dice.log_between(0.1, 10.0);
+  drive.load.inertia = inertia_ratio * drive.motor.inertia * square;
+  drive.contact = RigidContact{dice.between(0.0, 0.9)};
+  const double rate = 2.0 * std::numbers::pi * dice.log_between(1.0, 30.0);
+  const double damping = dice.log_between(0.02, 1.0);
+  const double inertia = drive.motor.inertia * square * (1.0 + inertia_ratio);
+  PID pid{.terms = PIDTerms::PD};
+  pid.proportional = inertia * rate * rate;
+  pid.derivative = 2.0 * damping * inertia * rate;
+  pid.filter = 1.0 / (rate * dice.between(5.0, 30.0));
+  drive.controller = {pid, GainShaft::load};
   return drive;
 }
 
 Drive continuous_drive(std::uint64_t seed) {
   Drive drive = random_drive(seed);
-  drive.sampling.reset();
-  drive.sensor.encoder = {};
-  drive.sensor.speed_encoder = {};
+  take_computer_away(drive);
   if (seed % 2 == 0) {
     drive.motor.friction.breakaway.reset();
     drive.load.friction.breakaway.reset();

@@ -21,4 +21,23 @@ namespace gearlash::oracle {
 /// no breakaway torque above Coulomb friction.
 [[nodiscard]] Drive continuous_drive(std::uint64_t seed);
 
+/// What a family of drives has beside that of random_drive. Half of each has a computer.
+enum class DriveKind : std::uint8_t {
+  industrial,        ///< random_drive
+  filtered_cascade,  ///< a filter of the measured speed, friction that falls with the speed
+  weight_at_limit,   ///< PID, the weight of an arm at 0.6 … 1.1 of the torque limit, dead bands,
+                     ///< friction and backlash compensated
+  state_space,       ///< PID with notches as state space, order 2 … 6; restitution up to 0.9,
+                     ///< inertia ratio 0.02 … 50
+  moving_reference,  ///< a sine, a ramp or a trapezoid
+  extreme            ///< a gap of 1e-6 rad, encoder steps beyond the gap, gains 3 … 30 times too
+                     ///< high, or a delay of 1 … 8 periods
+};
+
+[[nodiscard]] Drive random_drive(std::uint64_t seed, DriveKind kind);
+
+/// PD control of the load's position, continuous, the derivative filtered, without dry friction:
+/// natural frequency 1 … 30 Hz, damping 0.02 … 1, restitution 0 … 0.9, inertia ratio 0.1 … 10.
+[[nodiscard]] Drive frictionless_drive(std::uint64_t seed);
+
 }  // namespace gearlash::oracle

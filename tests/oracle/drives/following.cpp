@@ -1,0 +1,318 @@
+#include "following.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "gearlash/motion.hpp"
+
+namespace gearlash::oracle {
+namespace {
+
+Bounds extremes_of(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return {*low, *high};
+}
+
+double width_of(const Bounds& bounds) { return bounds.high - bounds.low; }
+
+std::vector<double> even_times(double from, double until, std::size_t count) {
+  std::vector<double> times(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    times[i] = std::lerp(from, until, static_cast<double>(i) / static_cast<double>(count - 1));
+  }
+  return times;
+}
+
+/// Positions of a window; on a ramp less the reference, which takes its hunting along.
+struct Window {
+  std::vector<double> times{}, load{}, motor{};
+};
+
+Window window_of(const Motion& motion, double from, double until, std::size_t count) {
+  Window window{.times = even_times(from, until, count)};
+  const Samples samples = motion.at(window.times);
+  window.load = samples.load_position;
+  window.motor = samples.motor_position;
+  return window;
+}
+
+bool is_on_ramp(const Drive& drive) {
+  return drive.reference && std::holds_alternative<RampSignal>(*drive.reference);
+}
+
+void subtract_ramp(const Drive& drive, Window& window) {
+  if (!is_on_ramp(drive)) return;
+  const auto& ramp = std::get<RampSignal>(*drive.reference);
+  for (std::size_t i = 0; i < window.times.size(); ++i) {
+    const double way = ramp.rate * (window.times[i] - ramp.time);
+    window.load[i] -= way;
+    window.motor[i] -= way;
+  }
+}
+
+/// The search knows a signal by its end alone.
+Drive as_searched(const Drive& drive) {
+  Drive searched = drive;
+  if (!drive.reference) return searched;
+  if (const auto* way = std::get_if<TrapezoidSignal>(&*drive.reference)) {
+    searched.reference = way->to;
+  }
+  return searched;
+}
+
+Span span_of(const Drive& drive, const StartOutcome& start, double until, std::size_t most_events) {
+  double gap = start.motor_position - start.load_position;
+  const double half = 0.5 * drive.gearbox.backlash;
+  if (std::holds_alternative<RigidContact>(drive.contact)) gap = std::clamp(gap, -half, half);
+  return {.until = until,
+          .start = Start{.load_position = start.load_position,
+                         .load_speed = start.load_speed,
+                         .gap = gap,
+                         .gap_speed = start.motor_speed - start.load_speed},
+          .most_events = most_events};
+}
+
+std::string text(const char* form, double one, double other) {
+  std::array<char, 200> line{};
+  std::snprintf(line.data(), line.size(), form, one, other);
+  return line.data();
+}
+
+/// The last time outside `band` about the last position, to a ten-thousandth of it.
+double last_time_outside(const Motion& motion, double until, double band) {
+  double from = 0.0;
+  double to = until;
+  const double last = motion.at(until).shafts.load_position;
+  for (int round = 0; round < 3; ++round) {
+    constexpr std::size_t count = 20'001;
+    const Window window = window_of(motion, from, to, count);
+    std::size_t i = count;
+    while (i > 0 && std::abs(window.load[i - 1] - last) <= band) --i;
+    if (i == 0) return from;
+    if (i == count) return to;
+    // Swings between the samples may leave the band later.
+    from = window.times[i - 1];
+    to = std::min(until, from + (round == 0 ? 40.0 : 1.0) * (window.times[i] - from));
+  }
+  return from;
+}
+
+FollowedStart follow_rest(const Drive& drive, const Answer& answer, const StartOutcome& start,
+                          const FollowOptions& options) {
+  FollowedStart result;
+  const double began = std::max(start.watched, start.time_to_rest.value_or(0.0));
+  if (!(began > 0.0)) return result;
+  const Motion motion =
+      simulate(drive, span_of(drive, start, options.times_of_rest * began, options.most_events));
+  const double until = motion.end_time();
+  result.followed = until / began;
+  if (motion.stop() == MotionStop::diverged) {
+    result.contradiction = text("runs away within %.4g s (%.4g)", until, until);
+    return result;
+  }
+  constexpr double enough = 1.2;
+  if (result.followed < enough || !answer.rest || !answer.rest->time) return result;
+  const double band = answer.rest->time->band;
+  constexpr std::size_t count = 4001;
+  Window late = window_of(motion, began, until, count);
+  subtract_ramp(drive, late);
+  const Bounds load = extremes_of(late.load);
+  constexpr double rounding = 1.001;
+  if (width_of(load) > 2.0 * band * rounding) {
+    result.contradiction =
+        text("the load still moves over %.4g rad, band %.4g rad", width_of(load), band);
+  }
+  Window last = window_of(motion, until - 0.1 * (until - began), until, count);
+  subtract_ramp(drive, last);
+  const double still = 0.1 * drive.gearbox.backlash;
+  const Bounds motor = extremes_of(last.motor);
+  if (width_of(motor) > still) {
+    result.contradiction = text("the motor still moves over %.4g rad of a gap of %.4g rad",
+                                width_of(motor), drive.gearbox.backlash);
+  }
+  if (result.followed > 2.0 && start.time_to_rest && !is_on_ramp(drive)) {
+    result.time_to_rest = last_time_outside(motion, until, band);
+  }
+  return result;
+}
+
+double step_of(const Drive& drive) {
+  constexpr double turn = 6.283185307179586;
+  const Encoder& encoder = drive.sensor.encoder;
+  const double turns = drive.sensor.position == SensorPlace::motor ? drive.gearbox.ratio : 1.0;
+  if (encoder.resolution) return *encoder.resolution / turns;
+  return encoder.counts_per_turn ? turn / *encoder.counts_per_turn / turns : 0.0;
+}
+
+FollowedStart follow_hunting(const Drive& drive, const Answer& answer, const StartOutcome& start,
+                             const FollowOptions& options) {
+  FollowedStart result;
+  if (!start.which || !(start.watched > 0.0)) return result;
+  const bool is_cycle = start.end == "cycle";
+  const double listed =
+      is_cycle ? answer.cycles[*start.which].amplitude : answer.irregular[*start.which].amplitude;
+  const Motion motion = simulate(
+      drive, span_of(drive, start, options.times_of_hunting * start.watched, options.most_events));
+  const double until = motion.end_time();
+  result.followed = until / start.watched;
+  if (motion.stop() == MotionStop::diverged) {
+    result.contradiction = text("runs away within %.4g s, listed %.4g rad", until, listed);
+    return result;
+  }
+  constexpr double enough = 1.2;
+  if (result.followed < enough) return result;
+  constexpr std::size_t count = 20'001;
+  Window late = window_of(motion, 0.5 * (start.watched + until), until, count);
+  subtract_ramp(drive, late);
+  const double amplitude = 0.5 * width_of(extremes_of(late.load));
+  const double share = permitted_share(answer, start, options.share, options.irregular_share);
+  const double least = std::max(step_of(drive), 1e-3 * drive.gearbox.backlash);
+  if (std::abs(amplitude - listed) > std::max(share * std::max(amplitude, listed), least)) {
+    result.contradiction =
+        text("the load swings by ±%.4g rad, listed ±%.4g rad", amplitude, listed);
+  }
+  const double motor = 0.5 * width_of(extremes_of(late.motor));
+  const bool rests = amplitude < 1e-3 * listed && motor < 1e-3 * drive.gearbox.backlash;
+  if (rests && answer.rests_engaged) {
+    result.contradiction.clear();
+  } else if (rests) {
+    result.contradiction = text("it rests (±%.4g rad), listed ±%.4g rad", amplitude, listed);
+  }
+  return result;
+}
+
+bool has_numbers(const Controller& controller) {
+  const auto* pid = std::get_if<PID>(&controller.law);
+  return pid == nullptr || pid->integral != 0.0;
+}
+
+bool is_in_another(const Rest& rest, const RestPiece& piece, double load) {
+  return std::any_of(rest.pieces.begin(), rest.pieces.end(), [&](const RestPiece& other) {
+    return &other != &piece && load >= other.load.low && load <= other.load.high;
+  });
+}
+
+/// Whether it stays from a place of the gap, followed for some swings of the slowest drive.
+bool stays(const Drive& drive, double load, double least) {
+  const double gap = drive.gearbox.backlash;
+  for (const double place : {-0.5, -0.25, 0.0, 0.25, 0.5}) {
+    const Motion motion =
+        simulate(drive, {.until = 2.0,
+                         .start = Start{.load_position = load, .gap = place * gap},
+                         .most_events = 200'000});
+    if (motion.stop() == MotionStop::diverged) continue;
+    const Window window = window_of(motion, 0.0, motion.end_time(), 401);
+    const Bounds range = extremes_of(window.load);
+    if (width_of(range) <= least) return true;
+  }
+  return false;
+}
+
+FollowedStart follow_with_time(const Drive& drive, const Answer& answer, const StartOutcome& start,
+                               const FollowOptions& options) {
+  FollowedStart followed = follow(drive, answer, start, options);
+  constexpr double permitted = 0.01;
+  if (followed.contradiction.empty() && followed.time_to_rest &&
+      std::abs(*start.time_to_rest - *followed.time_to_rest) > permitted * *followed.time_to_rest) {
+    followed.contradiction =
+        text("time to rest %.6g s, simulated %.6g s", *start.time_to_rest, *followed.time_to_rest);
+  }
+  return followed;
+}
+
+bool is_near_border(const Drive& drive, const Answer& answer, const StartOutcome& start,
+                    const FollowOptions& options) {
+  for (const double side : {-1.0, 1.0}) {
+    StartOutcome beside = start;
+    const double way = side * options.border * drive.gearbox.backlash;
+    beside.load_position += way;
+    beside.motor_position += way;
+    if (follow_with_time(drive, answer, beside, options).contradiction.empty()) return true;
+  }
+  return false;
+}
+
+void follow_pieces(const Drive& drive, const Answer& answer, FollowedDrive& result) {
+  const bool is_rigid = std::holds_alternative<RigidContact>(drive.contact);
+  if (!answer.rest || !is_rigid || has_numbers(drive.controller)) return;
+  const Drive searched = as_searched(drive);
+  const auto* constant = searched.reference ? std::get_if<double>(&*searched.reference) : nullptr;
+  if (searched.reference && constant == nullptr) return;
+  const double reference = constant != nullptr ? *constant : 0.0;
+  for (const RestPiece& piece : answer.rest->pieces) {
+    const double width = piece.load.high - piece.load.low;
+    if (!(width > 0.0)) continue;
+    ++result.pieces;
+    for (const double way : {-1.0, 1.0}) {
+      const double end = way < 0.0 ? piece.load.low : piece.load.high;
+      const double inside = end - way * 1e-6 * width;
+      const double beyond = end + way * 0.01 * width;
+      if (!stays(searched, reference + inside, 1e-3 * width)) {
+        result.contradictions.push_back(
+            text("piece of rest: from its end at %.9g rad (width %.3g) it leaves", end, width));
+      }
+      if (!is_in_another(*answer.rest, piece, beyond) &&
+          stays(searched, reference + beyond, 1e-3 * width)) {
+        result.contradictions.push_back(text(
+            "piece of rest: 1 %% beyond its end at %.9g rad (width %.3g) it stays", end, width));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+double permitted_share(const Answer& answer, const StartOutcome& start, double share,
+                       double irregular_share) {
+  if (!start.which) return share;
+  if (start.end == "cycle") {
+    // Neutral cycles are a family, of which one is listed.
+    const bool is_family = answer.cycles[*start.which].stability == Stability::neutral;
+    return is_family ? irregular_share : share;
+  }
+  const IrregularMotion& motion = answer.irregular[*start.which];
+  const double extent = std::max(motion.amplitude, motion.motor_amplitude.value_or(0.0));
+  return irregular_share + 2.0 * motion.amplitude_deviation.value_or(0.0) / extent;
+}
+
+FollowedStart follow(const Drive& drive, const Answer& answer, const StartOutcome& start,
+                     const FollowOptions& options) {
+  const Drive searched = as_searched(drive);
+  if (start.end == "rest") return follow_rest(searched, answer, start, options);
+  if (start.end != "cycle" && start.end != "irregular") return {};
+  FollowedStart followed = follow_hunting(searched, answer, start, options);
+  if (followed.contradiction.empty()) return followed;
+  // A chaotic transient may last much longer after a rounding; in the end it hunts about as far.
+  FollowOptions longer = options;
+  longer.share = options.irregular_share;
+  longer.times_of_hunting *= 8.0;
+  longer.most_events *= 8;
+  return follow_hunting(searched, answer, start, longer);
+}
+
+FollowedDrive follow_all(const Drive& drive, const Answer& answer, const FollowOptions& options) {
+  FollowedDrive result;
+  const std::vector<StartOutcome> none;
+  for (const StartOutcome& start : answer.search ? answer.search->starts : none) {
+    if (start.end == "undecided") continue;
+    FollowedStart followed = follow_with_time(drive, answer, start, options);
+    const double wanted = start.end == "rest" ? options.times_of_rest : options.times_of_hunting;
+    ++(followed.followed < 0.99 * wanted ? result.cut_short : result.starts);
+    if (followed.time_to_rest && *followed.time_to_rest > 0.0) ++result.times;
+    if (followed.contradiction.empty()) continue;
+    if (is_near_border(drive, answer, start, options)) {
+      ++result.near_border;
+      continue;
+    }
+    result.contradictions.push_back(
+        "from load " + text("%.9g at %.6g", start.load_position, start.load_speed) +
+        text(", motor %.9g at %.6g: ", start.motor_position, start.motor_speed) +
+        followed.contradiction);
+  }
+  follow_pieces(drive, answer, result);
+  return result;
+}
+
+}  // namespace gearlash::oracle
