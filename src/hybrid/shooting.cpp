@@ -68,7 +68,11 @@ void Shooting::find_exogenous() {
     }
   }
   moves_by_itself_ = is_moved(exogenous_flow_, anchor_);
-  if (moves_by_itself_) period_ = refined_period(exogenous_flow_, anchor_, period_);
+  if (!moves_by_itself_) return;
+  period_ = refined_period(exogenous_flow_, anchor_, period_);
+  constexpr double rounding = 1e-9;
+  returns_by_itself_ = largest_entry(flown(exogenous_flow_, anchor_, period_) - anchor_) <=
+                       rounding * largest_entry(anchor_);
 }
 
 Shooting Shooting::of(const PreparedSystem& system) const {
@@ -82,6 +86,7 @@ std::optional<Shooting> Shooting::about(const PreparedSystem& system, const Stat
                                         double start_time, double period, std::size_t events,
                                         std::size_t phases) {
   Shooting shooting(system, start, start_time, period);
+  if (!shooting.returns_by_itself_) return std::nullopt;
   const auto over_a_period = [&](const State& first) {
     const double from = shooting.has_clocks_ ? shooting.start_time_ : 0.0;
     return simulate(system, first,

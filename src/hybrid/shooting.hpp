@@ -19,7 +19,8 @@ namespace gearlash::hybrid {
 class Shooting {
  public:
   /// For `events` events within the period from `start` on, which is midway between two of them,
-  /// with at most this many phases. Empty if the motion has other events.
+  /// with at most this many phases. Empty if the motion has other events, or something moves by
+  /// itself and is elsewhere after the period.
   static std::optional<Shooting> about(const PreparedSystem& system, const State& start,
                                        double start_time, double period, std::size_t events,
                                        std::size_t phases);
@@ -74,6 +75,7 @@ class Shooting {
   std::vector<bool> is_exogenous_;
   AffineFlow exogenous_flow_;
   bool moves_by_itself_ = false;
+  bool returns_by_itself_ = true;  ///< after the period
   bool has_clocks_ = false;
   double start_time_;
   double period_;

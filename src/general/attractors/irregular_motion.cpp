@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 #include <utility>
 
@@ -242,17 +241,18 @@ bool is_same(const SteadyMotion& one, const SteadyMotion& other, const SearchSet
          are_alike(one.ranges, other.ranges, setting, tolerances.same_ranges);
 }
 
-namespace {
-
-/// s, of the longest sine that drives it.
-double longest_period(const ReducedDrive& drive) {
-  double longest = 0.0;
-  for (const Signal* signal : {&drive.reference, &drive.load_torque}) {
-    const auto* sine = std::get_if<Sine>(signal);
-    if (sine != nullptr) longest = std::max(longest, 2.0 * std::numbers::pi / sine->frequency);
-  }
-  return longest;
+bool runs_along(const Stretch& stretch, const SteadyMotion& known, const SearchSetting& setting,
+                const IrregularTolerances& tolerances) {
+  const bool repeats = known.found.mismatch < tolerances.repeating;
+  if (!repeats || stretch.course.empty() || known.course.empty()) return false;
+  const double apart =
+      std::max(tolerances.repeating * std::max(known.found.amplitude, known.found.motor_amplitude),
+               tolerances.steady_steps * setting.drive.sensing.resolution);
+  return std::equal(stretch.course.begin(), stretch.course.end(), known.course.begin(),
+                    [&](double one, double other) { return agree(one, other, 1.0, apart); });
 }
+
+namespace {
 
 /// Whether an integral of the error of a drive that stands goes to and fro: its mean is that of a
 /// reading at the reference's middle.
@@ -274,7 +274,7 @@ bool integrates_nothing(const SearchSetting& setting, const State& here) {
 bool stands_while_driven(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
                          const SearchTolerances& tolerances) {
   constexpr double enough = 3.0;
-  const double period = longest_period(setting.drive);
+  const double period = setting.longest_sine;
   if (period == 0.0 || stretch.to - stretch.from < enough * period) return false;
   const double no_move = tolerances.rest.no_move * setting.small_length;
   const auto stands = [&](const std::vector<Sample>& samples) {
@@ -310,10 +310,8 @@ std::size_t place_among(const std::vector<IrregularFound>& known, const Irregula
 bool may_join(const IrregularFound& motion, const FoundCycle& cycle,
               const IrregularTolerances& tolerances) {
   const double above = 1.0 + tolerances.same_ranges;
-  const double swing = motion.is_motor_alone ? cycle.motor_amplitude : cycle.amplitude;
   return cycle.stability == Stability::stable && cycle.amplitude <= above * motion.amplitude &&
-         cycle.motor_amplitude <= above * motion.motor_amplitude &&
-         motion.half_swing <= above * swing;
+         cycle.motor_amplitude <= above * motion.motor_amplitude;
 }
 
 namespace {

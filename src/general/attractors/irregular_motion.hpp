@@ -34,7 +34,8 @@ bool excludes_decay(double fastest_decay, double watched);
 /// A stretch of a motion that is steady.
 struct SteadyMotion {
   IrregularFound found;
-  std::vector<Extent> ranges;  ///< of each number
+  std::vector<Extent> ranges;    ///< of each number
+  std::vector<double> course{};  ///< as of Stretch
 };
 
 /// Whether two have the same statistics: means, and extremes within their scatter; and the drive's
@@ -44,6 +45,11 @@ struct SteadyMotion {
 /// of its motor changes little.
 bool is_same(const SteadyMotion& one, const SteadyMotion& other, const SearchSetting& setting,
              const IrregularTolerances& tolerances);
+
+/// Whether a stretch ends on a steady motion under a sine that repeats: over a period both shafts
+/// are where that has them, to the share to which it repeats or half an encoder step.
+bool runs_along(const Stretch& stretch, const SteadyMotion& known, const SearchSetting& setting,
+                const IrregularTolerances& tolerances);
 
 /// Whether both shafts stand under a sine, which moves the controller's numbers alone: over three
 /// periods at least, in which these cover the ranges of the stretch before, and nothing but the

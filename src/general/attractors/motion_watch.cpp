@@ -1,6 +1,7 @@
 #include "general/attractors/motion_watch.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -90,12 +91,51 @@ class Turns {
   bool is_paused_ = false;
 };
 
+/// Both positions at even phases of a sine, the last period of them.
+class Course {
+ public:
+  Course(double from, const SearchSetting& setting)
+      : load_(setting.load),
+        motor_(setting.motor),
+        every_(setting.common_sine / static_cast<double>(phases)) {
+    if (every_ > 0.0) next_ = static_cast<std::size_t>(std::ceil(from / every_));
+  }
+
+  void moved(double from, double to, const hybrid::Vector& before, const hybrid::Vector& after) {
+    if (!(every_ > 0.0)) return;
+    for (; time() <= to; ++next_, ++count_) {
+      const double share = to > from ? std::max(0.0, (time() - from) / (to - from)) : 1.0;
+      const std::size_t place = 2 * (next_ % phases);
+      values_[place] = std::lerp(load_.value.at(before), load_.value.at(after), share);
+      values_[place + 1] = std::lerp(motor_.value.at(before), motor_.value.at(after), share);
+    }
+  }
+
+  std::vector<double> last_period() const {
+    if (count_ < phases) return {};
+    return {values_.begin(), values_.end()};
+  }
+
+ private:
+  static constexpr std::size_t phases = 32;
+
+  double time() const { return static_cast<double>(next_) * every_; }
+
+  const Watched& load_;
+  const Watched& motor_;
+  double every_;
+  std::size_t next_ = 0;
+  std::size_t count_ = 0;
+  std::array<double, 2 * phases> values_{};
+};
+
 class StretchObserver : public hybrid::MotionObserver {
  public:
   StretchObserver(Watch& watch, double until, const SearchSetting& setting)
       : middle_(0.5 * (watch.time + until)),
         all_(watch.here.numbers.size()),
         last_(all_),
+        course_(watch.time, setting),
         load_(setting.load, watch.load),
         motor_(setting.motor, watch.motor),
         speeds_{setting.load.speed, setting.motor.speed} {}
@@ -111,6 +151,7 @@ class StretchObserver : public hybrid::MotionObserver {
       last_.add(after);
       is_in_last_ = true;
     }
+    course_.moved(from, to, before, after);
     load_.moved(from, to, before, after);
     motor_.moved(from, to, before, after);
   }
@@ -120,6 +161,7 @@ class StretchObserver : public hybrid::MotionObserver {
     motor_.end();
     include(watch.all, all_.low, all_.high);
     if (is_in_last_) include(stretch.last, last_.low, last_.high);
+    stretch.course = course_.last_period();
   }
 
  private:
@@ -127,6 +169,7 @@ class StretchObserver : public hybrid::MotionObserver {
   Ranges all_;
   Ranges last_;
   bool is_in_last_ = false;
+  Course course_;
   Turns load_;
   Turns motor_;
   std::vector<hybrid::AffineForm> speeds_;

@@ -47,6 +47,9 @@ struct Stretch {
   std::string culprit{};
   std::size_t events = 0;
   std::vector<Extent> last{};  ///< of each number in the last half; empty if it did not get there
+  /// rad: load and motor in turn, at even phases of the last period of the sine; of a motion that
+  /// was observed. Empty without a whole period.
+  std::vector<double> course{};
   std::optional<hybrid::Trajectory> motion{};  ///< empty if it was observed and not kept
 };
 

@@ -189,6 +189,20 @@ double SearchSetting::between_ticks(double time) const {
   return std::ceil((time - aside) / period) * period + aside;
 }
 
+namespace {
+
+void measure_sines(SearchSetting& setting) {
+  Extent frequencies;
+  for (const Signal* signal : {&setting.drive.reference, &setting.drive.load_torque}) {
+    if (const auto* sine = std::get_if<Sine>(signal)) frequencies.include(sine->frequency);
+  }
+  if (frequencies.high < frequencies.low) return;
+  setting.longest_sine = full_turn / frequencies.low;
+  if (frequencies.low == frequencies.high) setting.common_sine = setting.longest_sine;
+}
+
+}  // namespace
+
 SearchSetting search_setting(const ReducedDrive& drive, const StartTolerances& starts) {
   require_none(validate(drive));
   SearchSetting setting;
@@ -199,6 +213,7 @@ SearchSetting search_setting(const ReducedDrive& drive, const StartTolerances& s
   look(setting);
   const TimeScales times = time_scales(setting.drive);
   setting.swing_time = times.swing;
+  measure_sines(setting);
   setting.settling_time = times.settling;
   measure_lengths(setting, starts);
   return setting;

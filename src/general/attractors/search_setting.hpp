@@ -20,6 +20,8 @@ struct SearchSetting {
   Eigen::Index own = 0;        ///< numbers before those of the signals
   double swing_time = 0.0;     ///< s
   double settling_time = 0.0;  ///< s
+  double longest_sine = 0.0;   ///< s, the longest period of the sines that drive it; 0: none
+  double common_sine = 0.0;    ///< s, the period of all these; 0: none, or different ones
   double small_length = 0.0;   ///< rad: the smallest of backlash and encoder steps
   double large_length = 0.0;   ///< rad: the largest of all lengths of the drive
   /// rad: the same, with lengths of torques however many backlashes they are. Infinite where a

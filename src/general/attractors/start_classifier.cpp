@@ -49,6 +49,7 @@ Verdict StartClassifier::watched(Watch& watch, double patience, double longer) {
     Verdict verdict;
     verdict.watched = watch.time;
     if (is_decided(watch, stretch, verdict)) return verdict;
+    if (longer == 1.0 && joins(stretch, verdict)) return verdict;
     if (longer == 1.0 && is_steady(watch, stretch, before, verdict)) return verdict;
     if (!goes_on_()) {
       verdict.reason = "the search was stopped";
@@ -80,7 +81,8 @@ std::size_t StartClassifier::most_events() const {
 }
 
 double StartClassifier::first_stretch() const {
-  const bool may_join = !setting_.drive.sampling && !search_.cycles.empty();
+  const bool may_join = setting_.drive.sampling ? setting_.common_sine > 0.0 && !known_.empty()
+                                                : !search_.cycles.empty();
   const double share = may_join ? budget_.share_to_join : 1.0;
   return share * budget_.first_stretch * setting_.swing_time;
 }
@@ -216,6 +218,17 @@ const StartClassifier::Known* StartClassifier::known_as(const SteadyMotion& moti
   return known == known_.end() ? nullptr : &*known;
 }
 
+bool StartClassifier::joins(const Stretch& stretch, Verdict& verdict) const {
+  const auto known = std::find_if(known_.begin(), known_.end(), [&](const Known& one) {
+    return runs_along(stretch, one.motion, setting_, tolerances_.irregular);
+  });
+  if (known == known_.end()) return false;
+  verdict.end = known->end;
+  verdict.which = known->which;
+  verdict.irregular = known->motion.found;
+  return true;
+}
+
 bool StartClassifier::is_steady(const Watch& watch, const Stretch& stretch,
                                 std::optional<SteadyMotion>& before, Verdict& verdict) {
   const IrregularTolerances& irregular = tolerances_.irregular;
@@ -224,7 +237,7 @@ bool StartClassifier::is_steady(const Watch& watch, const Stretch& stretch,
     if (watch.events < most_events()) before.reset();  // not of a stretch that was cut short
     return false;
   }
-  const SteadyMotion now{seen.found, stretch.last};
+  const SteadyMotion now{seen.found, stretch.last, stretch.course};
   if (stretch.motion && may_still_close(now, before)) {
     before = now;
     return false;
@@ -324,7 +337,8 @@ void StartClassifier::give_up(const Watch& watch, const Stretch& stretch,
     verdict.reason = seen.reason;
     return;
   }
-  const SteadyMotion last = seen.reason.empty() ? SteadyMotion{seen.found, stretch.last} : *before;
+  const SteadyMotion last =
+      seen.reason.empty() ? SteadyMotion{seen.found, stretch.last, stretch.course} : *before;
   if (!excludes_decay(last.found.fastest_decay, last.found.watched)) {
     std::ostringstream reason;
     reason << std::setprecision(2) << "after " << watch.time

@@ -95,6 +95,8 @@ class StartClassifier {
                  Verdict& verdict);
   /// What the same motion led to before; null if it is new.
   const Known* known_as(const SteadyMotion& motion) const;
+  /// Whether it runs along with a motion under a sine that is known.
+  bool joins(const Stretch& stretch, Verdict& verdict) const;
   /// Whether a motion that was kept, on which no cycle was closed, repeats ever better.
   bool may_still_close(const SteadyMotion& now, const std::optional<SteadyMotion>& before) const;
   /// Whether Newton's method closes a cycle on a sampled drive's motion.

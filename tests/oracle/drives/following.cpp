@@ -173,6 +173,7 @@ FollowedStart follow_hunting(const Drive& drive, const Answer& answer, const Sta
     result.contradiction =
         text("the load swings by ±%.4g rad, listed ±%.4g rad", amplitude, listed);
   }
+  result.amplitude = amplitude;
   const double motor = 0.5 * width_of(extremes_of(late.motor));
   const bool rests = amplitude < 1e-3 * listed && motor < 1e-3 * drive.gearbox.backlash;
   if (rests && answer.rests_engaged) {
@@ -222,8 +223,16 @@ FollowedStart follow_with_time(const Drive& drive, const Answer& answer, const S
   return followed;
 }
 
+/// A rounding may lead it to another motion of the list, or a small displacement to its own.
 bool is_near_border(const Drive& drive, const Answer& answer, const StartOutcome& start,
-                    const FollowOptions& options) {
+                    const FollowedStart& followed, const FollowOptions& options) {
+  const auto is_other = [&](const auto& motion) {
+    return std::abs(followed.amplitude - motion.amplitude) <= options.share * motion.amplitude;
+  };
+  if (start.end != "rest" && (std::ranges::any_of(answer.cycles, is_other) ||
+                              std::ranges::any_of(answer.irregular, is_other))) {
+    return true;
+  }
   for (const double side : {-1.0, 1.0}) {
     StartOutcome beside = start;
     const double way = side * options.border * drive.gearbox.backlash;
@@ -302,7 +311,7 @@ FollowedDrive follow_all(const Drive& drive, const Answer& answer, const FollowO
     ++(followed.followed < 0.99 * wanted ? result.cut_short : result.starts);
     if (followed.time_to_rest && *followed.time_to_rest > 0.0) ++result.times;
     if (followed.contradiction.empty()) continue;
-    if (is_near_border(drive, answer, start, options)) {
+    if (is_near_border(drive, answer, start, followed, options)) {
       ++result.near_border;
       continue;
     }

@@ -17,12 +17,14 @@ struct FollowOptions {
   std::size_t most_events = 1'000'000;  ///< of a motion, clock ticks included
   double share = 0.02;                  ///< permitted difference of amplitudes, or an encoder step
   double irregular_share = 0.2;  ///< likewise of irregular motion, besides twice its deviation
-  /// A start that contradicts is near a border if one this share of the gap from it does not.
+  /// A start that contradicts is near a border if it leads to another motion of the list, or one
+  /// this share of the gap from it does not contradict.
   double border = 1e-3;
 };
 
 struct FollowedStart {
   std::string contradiction{};  ///< what it does instead, in words; empty if it agrees
+  double amplitude = 0.0;       ///< rad, of the load at the end, of one that hunts
   double followed = 0.0;        ///< how many times longer than the search it was followed
   /// s, the last time at which the load was outside the answer's band about its final position; of
   /// a start called rest that was followed twice as long at least.
