@@ -150,7 +150,7 @@ bool DriveScore::is_decided() const {
 
 DriveScore score_of(const Drive& drive, const ScoreOptions& options) {
   DriveScore score;
-  const PlainDrive plain = plain_drive(drive);
+  const PlainDrive plain = settled(plain_drive(drive));
   Deadline deadline(options.time_limit);
   const double before = processor_time();
   score.answer = analyse(drive, {.proofs = false}, deadline);
