@@ -51,8 +51,8 @@ double settling_time(const PlainDrive& drive) {
 }
 
 /// One start, carried forward; its trace grows. It runs away where it is a million gaps or encoder
-/// steps from the reference, and a hundred times the start's own distance, the reference's course
-/// and the way in which the highest torque stops it.
+/// steps from the reference, and a hundred times the start's own distance, the way in which the
+/// highest torque stops it and that of the reference.
 class Run {
  public:
   Run(const PlainDrive& drive, const ShaftReadings& start, const EndingOptions& options)
@@ -71,9 +71,11 @@ class Run {
     const double speed = std::max(std::abs(start.load_speed), std::abs(start.motor_speed));
     const double inertia = drive.motor.inertia + drive.load.inertia;
     const double way_to_stop = 0.5 * inertia * speed * speed / drive.limit + speed * unit_time;
-    far_away_ = std::max(
-        {1e6 * drive.backlash, 1e6 * drive.step,
-         100.0 * (std::abs(start.load_position) + way_to_stop + drive.reference_course.size())});
+    const double way_of_reference =
+        drive.reference_course.size() + drive.reference_course.fastest() * unit_time;
+    far_away_ =
+        std::max({1e6 * drive.backlash, 1e6 * drive.step,
+                  100.0 * (std::abs(start.load_position) + way_to_stop + way_of_reference)});
     forget();
   }
 
@@ -103,6 +105,7 @@ class Run {
   [[nodiscard]] const std::vector<Sample>& trace() const { return trace_; }
   /// From where positions of the trace count, now.
   [[nodiscard]] double origin() const { return is_on_ramp_ ? drive_.reference_at(time()) : 0.0; }
+  [[nodiscard]] const ShaftReadings& shafts() const { return mechanism_.shafts(); }
   [[nodiscard]] double load_position() const {
     return mechanism_.shafts().load_position - origin();
   }
@@ -220,6 +223,7 @@ struct Measured {
   Ending ending;
   bool is_steady = false;
   bool torque_grows = false;  ///< beyond its range of the quarter before
+  double negligible = 0.0;    ///< rad, of amplitudes: a share of small lengths, or rounding
 };
 
 bool is_near(double one, double other, double share, double least) {
@@ -265,7 +269,9 @@ Measured measured(const Run& run, const PlainDrive& drive) {
   const double least = 1e-6 * drive.small_length();
   // A sine has a few of its periods in a quarter.
   const std::size_t enough_passings = sine_period(drive) > 0.0 ? 2 : 8;
-  result.is_steady = passings >= enough_passings &&
+  result.negligible =
+      std::max(1e-9 * drive.small_length(), 1e-13 * std::abs(run.shafts().load_position));
+  result.is_steady = passings >= enough_passings && ending.motor_amplitude > result.negligible &&
                      is_near(ending.amplitude, ending.earlier_amplitude, 0.02, least) &&
                      is_near(ending.motor_amplitude, ending.earlier_motor_amplitude, 0.02, least);
   return result;
@@ -274,7 +280,7 @@ Measured measured(const Run& run, const PlainDrive& drive) {
 /// Standstill is rest only while the torque does not grow, which may still break the shafts away.
 bool is_fading(const Measured& found, const PlainDrive& drive) {
   const Ending& ending = found.ending;
-  const double least = 1e-9 * drive.small_length();
+  const double least = found.negligible;
   if (ending.motor_amplitude < least && ending.amplitude < least) {
     return !found.torque_grows && ending.earlier_motor_amplitude < least;
   }

@@ -188,7 +188,8 @@ void set_sampling(const Sampling& sampling, PlainDrive& plain) {
 }  // namespace
 
 double PlainDrive::small_length() const {
-  double length = backlash;
+  constexpr double without_gap = 1e-3;
+  double length = backlash > 0.0 ? backlash : without_gap;
   if (step > 0.0) length = std::min(length, step);
   if (speed_step > 0.0 && !has_tachometer) length = std::min(length, speed_step);
   return length;

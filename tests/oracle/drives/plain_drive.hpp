@@ -104,7 +104,7 @@ struct PlainDrive {
   [[nodiscard]] double reference_at(double time) const {
     return reference + reference_course.at(time);
   }
-  /// rad: the smallest of backlash and encoder steps.
+  /// rad: the smallest of backlash, 1e-3 without one, and encoder steps.
   [[nodiscard]] double small_length() const;
 };
 

@@ -71,7 +71,8 @@ TEST(OracleEnding, OfAContinuousCascadeTendsToTheExactCycleWithTheStep) {
   drive.speed_of_load = false;
   constexpr double speed_gain = 0.05;
   drive.motor.viscous -= speed_gain;
-  drive.controller = {.law = PlainLaw::cascade, .position = 1.0 / speed_gain, .proportional = speed_gain};
+  drive.controller = {
+      .law = PlainLaw::cascade, .position = 1.0 / speed_gain, .proportional = speed_gain};
   const auto error = [&](double step) {
     const Ending ending =
         ending_of(drive, {0.45, 0.0, 0.3, 0.0},
