@@ -278,12 +278,15 @@ Measured measured(const Run& run, const PlainDrive& drive) {
 }
 
 /// Standstill is rest only while the torque does not grow, which may still break the shafts away.
+/// Encoders count a ramp for ever, so that what shrinks may be part of a slow beat.
 bool is_fading(const Measured& found, const PlainDrive& drive) {
   const Ending& ending = found.ending;
   const double least = found.negligible;
   if (ending.motor_amplitude < least && ending.amplitude < least) {
     return !found.torque_grows && ending.earlier_motor_amplitude < least;
   }
+  const bool is_counted = drive.step > 0.0 || (drive.speed_step > 0.0 && !drive.has_tachometer);
+  if (is_counted && drive.reference_course.last_rate() != 0.0) return false;
   const double small = 0.1 * drive.small_length();
   return ending.amplitude < small && ending.motor_amplitude < small &&
          ending.amplitude < 0.9 * ending.earlier_amplitude &&

@@ -154,7 +154,7 @@ TEST(OracleLaws, AFunctionOfZIsItsDifferenceEquation) {
   }
 }
 
-TEST(OracleLaws, GainsOfTheMotorAreReferredByTheSquareOfTheRatio) {
+TEST(OracleLaws, NumbersOfTheMotorAreReferredByTheRatio) {
   Drive drive = drive_with(its_states, GainShaft::motor, 5.0);
   drive.controller.dead_band.width = 0.4;
   drive.controller.compensation = {.friction = 0.3, .friction_speed = 2.0};
@@ -164,6 +164,17 @@ TEST(OracleLaws, GainsOfTheMotorAreReferredByTheSquareOfTheRatio) {
   EXPECT_DOUBLE_EQ(plain.controller.width, 0.08);
   EXPECT_DOUBLE_EQ(plain.controller.friction, 1.5);
   EXPECT_DOUBLE_EQ(plain.controller.friction_speed, 0.4);
+  drive.controller.law = RelayController{.level = 3.0};
+  drive.motor.kind = TorqueControl{.torque_constant = 0.1};
+  drive.motor.current_limit = 6.0;
+  drive.motor.no_load_current = 2.0;
+  drive.gearbox.inertia = 2.0 * drive.motor.inertia;
+  const PlainDrive other = plain_drive(drive);
+  EXPECT_DOUBLE_EQ(other.controller.proportional, 15.0);
+  EXPECT_DOUBLE_EQ(other.limit, 3.0);
+  EXPECT_DOUBLE_EQ(other.motor.coulomb, 1.0);
+  EXPECT_DOUBLE_EQ(other.motor.breakaway, 1.0);
+  EXPECT_DOUBLE_EQ(other.motor.inertia, 3.0);
 }
 
 // ---- between error and law, and delays ----------------------------------------------------------
@@ -190,25 +201,33 @@ TEST(OracleErrorRule, IsThatOfDeadBandsRelaysAndTakeUp) {
   EXPECT_EQ(answers(sampled(controller), {1.2, 1.3, 0.8, 0.7, -1.3}),
             (std::vector{0.0, 3.0, 3.0, 0.0, -3.0}));
   controller.dead_band = {.hysteresis = 0.25};
-  EXPECT_EQ(answers(sampled(controller), {0.1, -0.2, -0.3, 0.2, 0.3}),
+  EXPECT_EQ(answers(sampled(controller), {0.1, -0.25, -0.3, 0.25, 0.3}),
             (std::vector{3.0, 3.0, -3.0, -3.0, 3.0}));
   controller = pd(1.0, 0.0);
   controller.compensation = {
       .backlash = 4.0, .input = CompensationInput::error, .take_up_angle = 0.5};
   EXPECT_EQ(answers(sampled(controller), {0.25, -1.0}), (std::vector{1.25, -3.0}));
+  controller = {StateSpaceController{.gain = 1.0, .D = {2.0, -2.0, 0.0}}};
+  controller.dead_band = {.width = 1.0};
+  EXPECT_EQ(answers(sampled(controller), {0.5, 1.5, -3.0}), (std::vector{0.0, 1.0, -4.0}));
 }
 
 TEST(OracleErrorRule, ADeadBandOfWholeCountsHoldsAsMany) {
   Controller controller = pd(1.0, 0.0);
-  controller.dead_band = {.width = 3.0 * 0.1, .form = DeadBandForm::whole};
+  controller.dead_band = {.width = 0.3, .form = DeadBandForm::whole};
   PlainDrive drive = sampled(controller);
   drive.step = 0.1;
-  drive.reference = 0.7;  // 0.7 − 0.4 is more than 3 · 0.1, by rounding
-  Computer computer(drive, motor_at(0.4));
-  computer.sample(motor_at(0.4));
+  drive.reference = 1.1;
+  ASSERT_GT(1.1 - 0.8, 0.3);  // by rounding
+  Computer computer(drive, motor_at(0.8));
+  computer.sample(motor_at(0.8));
   EXPECT_EQ(computer.torque(), 0.0);
-  computer.sample(motor_at(0.3));
+  computer.sample(motor_at(0.7));
   EXPECT_NEAR(computer.torque(), 0.4, 1e-15);
+  drive.controller.rule = PlainErrorRule::excess;
+  Computer of_excess(drive, motor_at(0.8));
+  of_excess.sample(motor_at(0.8));
+  EXPECT_EQ(of_excess.torque(), 0.0);
 }
 
 TEST(OracleErrorRule, AShaftStopsAtTheEdgeOfItsDeadBand) {
@@ -268,6 +287,15 @@ TEST(OracleSignals, GoTheirCourses) {
   EXPECT_EQ(value(peak, 0.5), 0.5);
   EXPECT_EQ(value(peak, 0.75), 1.0 - 0.125);
   EXPECT_EQ(plain_signal(peak).course.settling_time(), 1.0);
+}
+
+TEST(OracleSignals, SettleToWhatASearchHas) {
+  const auto course = [](const Signal& signal) { return plain_signal(signal).course.settled(); };
+  EXPECT_FALSE(course(TableSignal{.times = {1.0, 2.0}, .values = {7.0, 9.0}}).moves());
+  const PlainCourse ramp = course(RampSignal{.value = 2.0, .rate = -3.0, .time = 4.0});
+  EXPECT_EQ(ramp.at(1.0), -3.0);
+  EXPECT_EQ(ramp.rate_at(0.0), -3.0);
+  EXPECT_EQ(course(SineSignal{.amplitude = 2.0, .frequency = 0.5}).at(1.0), 2.0 * std::sin(0.5));
 }
 
 TEST(OracleSignals, TheReferencesMotionIsFedForward) {
@@ -339,9 +367,10 @@ TEST(OracleMovingReference, ASineIsFollowedAsTheTransferFunctionSays) {
     EXPECT_NEAR(0.5 * (found.load.low + found.load.high), 0.2, allowed);
     EXPECT_FALSE(found.stands);
   }
-  const Ending ending = ending_of(drive, {}, {.longest_step = 1e-4, .first_time = 10.0});
+  const Ending ending = ending_of(drive, {}, {.longest_step = 1e-4, .first_time = 1.0});
   EXPECT_EQ(ending.kind, EndKind::hunts);
   EXPECT_NEAR(ending.amplitude, std::abs(load), 1e-5);
+  EXPECT_NEAR(ending.time, 12.0 * 2.0 * std::numbers::pi / 6.0, 1e-2);
 }
 
 TEST(OracleMovingReference, ASineOfTheLoadTorqueShakesTheLoad) {
@@ -384,6 +413,16 @@ TEST(OracleMovingReference, AShaftSticksAndSlipsBehindARamp) {
   EXPECT_NEAR(ending.amplitude, std::hypot(1.0 / 25.0, 0.1 / 5.0), 2e-4);
 }
 
+TEST(OracleMovingReference, AnEncoderCountsARampForEver) {
+  PlainDrive drive = joined();
+  drive.period = drive.step = 1e-3;
+  drive.reference_course = plain_signal(RampSignal{.rate = 0.05 + 5e-6}).course;
+  // Readings are late by up to a 20th of a step, over a beat of 10 s, and shrink as it ends.
+  const Ending ending = ending_of(drive, {}, {.longest_step = 1e-3, .first_time = 26.0});
+  EXPECT_EQ(ending.kind, EndKind::hunts);
+  EXPECT_NEAR(ending.amplitude, 0.025e-3, 0.005e-3);
+}
+
 TEST(OracleMovingReference, AShaftThatFrictionHoldsRestsUnderASine) {
   PlainDrive drive = joined();
   drive.controller.proportional = 1.0;
@@ -410,6 +449,18 @@ TEST(OracleMovingReference, RestIsNotSeenBeforeTheReferenceHasCome) {
   EXPECT_GT(found.load.high, 0.4);
   EXPECT_TRUE(found.stands);
   EXPECT_LT(found.time, 20.0);
+}
+
+TEST(OracleMovingReference, RestIsNotSeenWhileASineIsWithinADeadBand) {
+  PlainDrive drive = joined();
+  drive.load.coulomb = drive.load.breakaway = 0.1;
+  drive.period = 1e-3;
+  drive.controller.derivative = 0.0;
+  drive.controller.rule = PlainErrorRule::excess;
+  drive.controller.width = 0.05;
+  drive.reference_course = {.amplitude = 0.1, .frequency = 6.0};
+  const Ending ending = ending_of(drive, {}, {.longest_step = 1e-4, .first_time = 20.0});
+  EXPECT_EQ(ending.kind, EndKind::hunts);
 }
 
 TEST(OracleEnding, AnIntegralThatWindsUpBehindALimitLeavesTheShaftsAtRest) {
