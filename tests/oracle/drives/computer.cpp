@@ -88,7 +88,7 @@ double Computer::sampled_speed(const ShaftReadings& shafts) {
 }
 
 /// The reference, and half of the assumed gap on the side of its last motion. With a lag
-/// take_up_time a′ = ± half − a between samples.
+/// take_up_time a′ = ± half − a between samples, whose middle gives the side.
 double Computer::command(double time) {
   if (!drive_.reference_course.moves()) return drive_.reference;
   const PlainController& gains = drive_.controller;

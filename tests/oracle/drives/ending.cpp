@@ -170,11 +170,12 @@ class Run {
   void one_period() {
     const double now = time();
     ++periods_;
+    const ShaftReadings before = mechanism_.shafts();
     if (drive_.period == 0.0) {
       steps_for(now, period_, {0.0, drive_.controller.proportional, drive_.controller.derivative});
+      note_rest(mechanism_.shafts() == before);
       return;
     }
-    const ShaftReadings before = mechanism_.shafts();
     computer_.sample(before, now);
     double held = 0.0;
     if (computer_.gives_out_later()) {
@@ -183,7 +184,7 @@ class Run {
       computer_.give_out();
     }
     apply(now + held, drive_.period - held);
-    note_rest(before);
+    note_rest(mechanism_.shafts() == before && !computer_.has_changed());
   }
 
   void apply(double from, double time) {
@@ -193,8 +194,7 @@ class Run {
   }
 
   /// All numbers as one period ago, three times, with signals at rest: for ever.
-  void note_rest(const ShaftReadings& before) {
-    const bool is_same = mechanism_.shafts() == before && !computer_.has_changed();
+  void note_rest(bool is_same) {
     same_periods_ = is_same && may_rest_ && time() > settled_ ? same_periods_ + 1 : 0;
     if (same_periods_ >= 3) is_at_rest_ = true;
   }
@@ -373,6 +373,7 @@ Extremes extremes_between(const PlainDrive& drive, const ShaftReadings& start, d
   found.error = {run.error(), run.error()};
   found.stands = run.is_at_rest();
   found.runs_away = run.is_far();
+  found.is_whole = !run.has_gaps();
   found.time = run.time();
   const std::vector<Sample>& trace = run.trace();
   if (trace.empty()) return found;

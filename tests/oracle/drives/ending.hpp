@@ -55,6 +55,7 @@ struct Extremes {
   Range error{};           ///< rad, reference less load
   bool stands = false;     ///< neither shaft moves in the last tenth, to 1e-6 of small_length()
   bool runs_away = false;  ///< as Ending; the extremes are of the time until then
+  bool is_whole = true;    ///< no event was left out
   double time = 0.0;       ///< s, followed: less than `until` where nothing will move any more
 };
 

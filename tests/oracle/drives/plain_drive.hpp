@@ -42,14 +42,14 @@ enum class PlainErrorRule {
   take_up          ///< e + half_gap sat(e/width)
 };
 
-/// What the controller computes, with e = r − y of the position read and v the speed read, by
-/// law:
+/// What the controller computes, with e = r − y of the position read and v the speed read:
 ///   PID:     proportional e + integral ∫e dt − derivative v, or, with a `filter`, with the
 ///            derivative passed through 1/(filter s + 1): of the speed, or of the error;
-///   cascade: speed_gain (w − f) + integral ∫(w − f) dt with w = position e, f = 1/(filter s + 1)
-///   v; system:  PlainSystem;
-/// and adds friction sat(ṙ/friction_speed). r is the reference and reference_half_gap on the side
-/// of its last motion, with a lag.
+///   cascade: proportional (w − f) + integral ∫(w − f) dt, where w = position e and f is v, passed
+///            through 1/(filter s + 1);
+///   system:  PlainSystem.
+/// It adds friction sat(ṙ/friction_speed). r is the reference and reference_half_gap on the side of
+/// its last motion, with a lag.
 enum class PlainLaw { PID, cascade, system };
 
 struct PlainController {

@@ -238,6 +238,7 @@ TEST(OracleErrorRule, AShaftStopsAtTheEdgeOfItsDeadBand) {
   const Extremes found = extremes_between(drive, motor_at(1.0), 30.0, 31.0);
   EXPECT_NEAR(found.motor.low, 0.03, 1e-9);
   EXPECT_NEAR(found.motor.high, 0.03, 1e-9);
+  EXPECT_TRUE(found.stands && found.is_whole);
 }
 
 TEST(OracleDelay, OfTwoAndAHalfPeriodsAndOfThreeByHand) {
@@ -461,6 +462,21 @@ TEST(OracleMovingReference, RestIsNotSeenWhileASineIsWithinADeadBand) {
   drive.reference_course = {.amplitude = 0.1, .frequency = 6.0};
   const Ending ending = ending_of(drive, {}, {.longest_step = 1e-4, .first_time = 20.0});
   EXPECT_EQ(ending.kind, EndKind::hunts);
+}
+
+TEST(OracleExtremes, AreThoseOfTheTimesAskedFor) {
+  PlainDrive drive;
+  drive.backlash = 1000.0;
+  drive.load.viscous = 0.5;
+  const ShaftReadings start{.load_position = 1.0, .load_speed = 2.0};  // 1 + 4 (1 − exp(−t/2))
+  const Extremes found = extremes_between(drive, start, 1.0, 3.0);
+  EXPECT_NEAR(found.load.low, 5.0 - 4.0 * std::exp(-0.5), 0.02);
+  EXPECT_NEAR(found.load.high, 5.0 - 4.0 * std::exp(-1.5), 0.02);
+  EXPECT_EQ(found.error.low, -found.load.high);
+  EXPECT_FALSE(found.stands);
+  drive.load.coulomb = drive.load.breakaway = 1.0;
+  EXPECT_TRUE(extremes_between(drive, start, 5.0, 50.0).stands);
+  EXPECT_LT(extremes_between(drive, start, 5.0, 50.0).time, 5.0);
 }
 
 TEST(OracleEnding, AnIntegralThatWindsUpBehindALimitLeavesTheShaftsAtRest) {
