@@ -270,23 +270,25 @@ Measured measured(const Run& run, const PlainDrive& drive) {
   // A sine has a few of its periods in a quarter.
   const std::size_t enough_passings = sine_period(drive) > 0.0 ? 2 : 8;
   result.negligible =
-      std::max(1e-9 * drive.small_length(), 1e-13 * std::abs(run.shafts().load_position));
+      std::max(1e-9 * drive.small_length(), 1e-12 * std::abs(run.shafts().load_position));
   result.is_steady = passings >= enough_passings && ending.motor_amplitude > result.negligible &&
                      is_near(ending.amplitude, ending.earlier_amplitude, 0.02, least) &&
                      is_near(ending.motor_amplitude, ending.earlier_motor_amplitude, 0.02, least);
   return result;
 }
 
-/// Standstill is rest only while the torque does not grow, which may still break the shafts away.
+/// Standstill is rest only while the torque does not grow, which may still break the shafts away;
+/// those that a ramp leads show it.
 /// Encoders count a ramp for ever, so that what shrinks may be part of a slow beat.
 bool is_fading(const Measured& found, const PlainDrive& drive) {
   const Ending& ending = found.ending;
   const double least = found.negligible;
+  const bool is_on_ramp = drive.reference_course.last_rate() != 0.0;
   if (ending.motor_amplitude < least && ending.amplitude < least) {
-    return !found.torque_grows && ending.earlier_motor_amplitude < least;
+    return (is_on_ramp || !found.torque_grows) && ending.earlier_motor_amplitude < least;
   }
   const bool is_counted = drive.step > 0.0 || (drive.speed_step > 0.0 && !drive.has_tachometer);
-  if (is_counted && drive.reference_course.last_rate() != 0.0) return false;
+  if (is_counted && is_on_ramp) return false;
   const double small = 0.1 * drive.small_length();
   return ending.amplitude < small && ending.motor_amplitude < small &&
          ending.amplitude < 0.9 * ending.earlier_amplitude &&

@@ -397,6 +397,11 @@ TEST(OracleMovingReference, ARampIsFollowedWithItsSteadyError) {
   const Ending ending = ending_of(drive, {}, {.longest_step = 1e-4, .first_time = 20.0});
   EXPECT_EQ(ending.kind, EndKind::fades);
   EXPECT_NEAR(ending.load_position, -error, 1e-7);
+  drive.controller.integral = 40.0;
+  const Ending integrated = ending_of(drive, {}, {.longest_step = 1e-4, .first_time = 80.0});
+  EXPECT_EQ(integrated.kind, EndKind::fades);
+  EXPECT_EQ(integrated.time, 80.0);
+  EXPECT_NEAR(integrated.load_position, 0.0, 1e-9);
 }
 
 TEST(OracleMovingReference, AShaftSticksAndSlipsBehindARamp) {
