@@ -295,7 +295,7 @@ DriveScore score_of(const Drive& drive, const ScoreOptions& options) {
   score.processor_seconds = processor_time() - before;
   if (score.answer.search) score.undecided = score.answer.search->count("undecided");
   try {
-    const PlainDrive plain = plain_drive(drive);
+    const PlainDrive plain = settled(plain_drive(drive));
     for (const StartOutcome& start : compared_starts(score.answer, plain, options.starts)) {
       score.starts.push_back(scored_start(start, score.answer, plain, options));
     }

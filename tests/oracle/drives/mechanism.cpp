@@ -75,6 +75,8 @@ double Mechanism::load_torque(const ShaftReadings& at) const {
 double Mechanism::mesh_torque(const ShaftReadings& at) const {
   if (is_rigid_) return 0.0;
   const double gap = at.motor_position - at.load_position;
+  if (drive_.backlash == 0.0)
+    return drive_.stiffness * gap + drive_.damping * (at.motor_speed - at.load_speed);
   const double face = gap > 0.0 ? 1.0 : -1.0;
   const double compression = face * gap - 0.5 * drive_.backlash;
   if (compression <= 0.0) return 0.0;

@@ -6,8 +6,8 @@
 
 namespace gearlash::oracle {
 
-/// The motor's torque: held − stiffness (y − reference) − damping v, within the limit. A sampled
-/// controller holds it.
+/// The motor's torque: held − stiffness (y − PlainDrive::reference) − damping v, within the limit.
+/// A sampled controller holds it.
 struct AppliedTorque {
   double held = 0.0;       ///< N m
   double stiffness = 0.0;  ///< N m/rad
@@ -20,12 +20,13 @@ struct AppliedTorque {
 ///   a shaft that stopped sticks while the torque applied to it is at most its breakaway torque;
 ///   rigid faces: momentum is kept and the relative speed multiplied by −e; bounces shorter than a
 ///   hundredth of h are over at once; in contact both move as one while the faces press;
-///   compliant faces: spring and damper in parallel, which never pull.
+///   compliant faces: spring and damper in parallel, which never pull; without a gap they do.
 class Mechanism {
  public:
   Mechanism(const PlainDrive& drive, const ShaftReadings& start);
 
   void advance(double step, const AppliedTorque& torque);
+  void set_load_torque(double torque) { drive_.load_torque = torque; }  ///< N m
 
   [[nodiscard]] const ShaftReadings& shafts() const { return now_; }
   [[nodiscard]] bool stands() const { return now_.motor_speed == 0.0 && now_.load_speed == 0.0; }

@@ -66,7 +66,7 @@ TEST(PropertyRandomDrive, ComesInEveryKind) {
     kinds.insert(plain.contact != PlainContact::rigid ? "compliant"
                  : plain.restitution > 0.0            ? "bouncing"
                                                       : "plastic");
-    kinds.insert(plain.controller.is_cascade ? "cascade" : "PID");
+    kinds.insert(plain.controller.law == PlainLaw::cascade ? "cascade" : "PID");
     const bool has_weight = plain.gravity_stiffness != 0.0;
     if (plain.load_torque != 0.0) kinds.insert(has_weight ? "weight" : "load torque");
     if (plain.motor.breakaway == plain.motor.coulomb) kinds.insert("no breakaway above Coulomb");

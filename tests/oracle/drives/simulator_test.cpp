@@ -71,7 +71,8 @@ TEST(OracleEnding, OfAContinuousCascadeTendsToTheExactCycleWithTheStep) {
   drive.speed_of_load = false;
   constexpr double speed_gain = 0.05;
   drive.motor.viscous -= speed_gain;
-  drive.controller = {.is_cascade = true, .position = 1.0 / speed_gain, .proportional = speed_gain};
+  drive.controller = {
+      .law = PlainLaw::cascade, .position = 1.0 / speed_gain, .proportional = speed_gain};
   const auto error = [&](double step) {
     const Ending ending =
         ending_of(drive, {0.45, 0.0, 0.3, 0.0},
@@ -261,7 +262,7 @@ TEST(OracleComputer, AntiWindupSeesTheLimitOneSampleLate) {
 
 TEST(OracleComputer, TakesTheSpeedFromDifferencesOfReadings) {
   PlainDrive drive = sampled_drive();
-  drive.controller = {.is_cascade = true, .position = 10.0, .proportional = 2.0};
+  drive.controller = {.law = PlainLaw::cascade, .position = 10.0, .proportional = 2.0};
   drive.speed_of_load = true;
   drive.speed_step = 0.01;
   Computer computer(drive, {.load_speed = 0.5});  // read at −0.05 one period ago
