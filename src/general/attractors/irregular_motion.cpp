@@ -241,15 +241,38 @@ bool is_same(const SteadyMotion& one, const SteadyMotion& other, const SearchSet
          are_alike(one.ranges, other.ranges, setting, tolerances.same_ranges);
 }
 
+namespace {
+
+/// Positions to the share to which motions repeat, or half an encoder step; no number drifts.
+bool is_same_course(const Course& one, const Course& other, const IrregularFound& found,
+                    const SearchSetting& setting, const IrregularTolerances& tolerances) {
+  if (one.positions.empty() || other.positions.empty()) return false;
+  const double apart =
+      std::max(tolerances.repeating * std::max(found.amplitude, found.motor_amplitude),
+               tolerances.steady_steps * setting.drive.sensing.resolution);
+  for (std::size_t i = 0; i < one.means.size(); ++i) {
+    // One that drifts changes its mean by its range; those that chatter scatter.
+    constexpr double drift = 0.5;
+    constexpr double rounding = 1e-9;
+    const double width =
+        std::max({one.widths[i], other.widths[i], rounding * std::abs(one.means[i])});
+    if (!agree(one.means[i], other.means[i], width, drift)) return false;
+  }
+  return std::equal(one.positions.begin(), one.positions.end(), other.positions.begin(),
+                    [&](double a, double b) { return agree(a, b, 1.0, apart); });
+}
+
+}  // namespace
+
+bool repeats_course(const Stretch& stretch, const IrregularFound& found,
+                    const SearchSetting& setting, const IrregularTolerances& tolerances) {
+  return is_same_course(stretch.course, stretch.course_before, found, setting, tolerances);
+}
+
 bool runs_along(const Stretch& stretch, const SteadyMotion& known, const SearchSetting& setting,
                 const IrregularTolerances& tolerances) {
-  const bool repeats = known.found.mismatch < tolerances.repeating;
-  if (!repeats || stretch.course.empty() || known.course.empty()) return false;
-  const double apart =
-      std::max(tolerances.repeating * std::max(known.found.amplitude, known.found.motor_amplitude),
-               tolerances.steady_steps * setting.drive.sensing.resolution);
-  return std::equal(stretch.course.begin(), stretch.course.end(), known.course.begin(),
-                    [&](double one, double other) { return agree(one, other, 1.0, apart); });
+  return known.repeats_course &&
+         is_same_course(stretch.course, known.course, known.found, setting, tolerances);
 }
 
 namespace {

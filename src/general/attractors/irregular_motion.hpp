@@ -34,8 +34,9 @@ bool excludes_decay(double fastest_decay, double watched);
 /// A stretch of a motion that is steady.
 struct SteadyMotion {
   IrregularFound found;
-  std::vector<Extent> ranges;    ///< of each number
-  std::vector<double> course{};  ///< as of Stretch
+  std::vector<Extent> ranges;   ///< of each number
+  Course course{};              ///< as of Stretch
+  bool repeats_course = false;  ///< under a sine
 };
 
 /// Whether two have the same statistics: means, and extremes within their scatter; and the drive's
@@ -46,8 +47,12 @@ struct SteadyMotion {
 bool is_same(const SteadyMotion& one, const SteadyMotion& other, const SearchSetting& setting,
              const IrregularTolerances& tolerances);
 
-/// Whether a stretch ends on a steady motion under a sine that repeats: over a period both shafts
-/// are where that has them, to the share to which it repeats or half an encoder step.
+/// Whether under a sine both shafts were in the last period where they were in the one before, to
+/// IrregularTolerances::repeating of the amplitude or half an encoder step, and no number drifts.
+bool repeats_course(const Stretch& stretch, const IrregularFound& found,
+                    const SearchSetting& setting, const IrregularTolerances& tolerances);
+
+/// Whether a stretch ends likewise on a steady motion under a sine that repeats its course.
 bool runs_along(const Stretch& stretch, const SteadyMotion& known, const SearchSetting& setting,
                 const IrregularTolerances& tolerances);
 

@@ -91,13 +91,11 @@ class Turns {
   bool is_paused_ = false;
 };
 
-/// Both positions at even phases of a sine, the last period of them.
-class Course {
+/// All numbers at even phases of a sine, in the last two periods.
+class CourseWatch {
  public:
-  Course(double from, const SearchSetting& setting)
-      : load_(setting.load),
-        motor_(setting.motor),
-        every_(setting.common_sine / static_cast<double>(phases)) {
+  CourseWatch(double from, const SearchSetting& setting)
+      : setting_(setting), every_(setting.common_sine / static_cast<double>(phases)) {
     if (every_ > 0.0) next_ = static_cast<std::size_t>(std::ceil(from / every_));
   }
 
@@ -105,15 +103,28 @@ class Course {
     if (!(every_ > 0.0)) return;
     for (; time() <= to; ++next_, ++count_) {
       const double share = to > from ? std::max(0.0, (time() - from) / (to - from)) : 1.0;
-      const std::size_t place = 2 * (next_ % phases);
-      values_[place] = std::lerp(load_.value.at(before), load_.value.at(after), share);
-      values_[place + 1] = std::lerp(motor_.value.at(before), motor_.value.at(after), share);
+      numbers_[next_ % numbers_.size()] = before + share * (after - before);
     }
   }
 
-  std::vector<double> last_period() const {
-    if (count_ < phases) return {};
-    return {values_.begin(), values_.end()};
+  /// Of the last period, or of the one `earlier`.
+  Course course(std::size_t earlier) const {
+    const std::size_t back = (earlier + 1) * phases;
+    if (count_ < back) return {};
+    Course course{.positions = std::vector<double>(2 * phases)};
+    std::vector<Extent> ranges(static_cast<std::size_t>(setting_.own));
+    course.means.resize(ranges.size());
+    for (std::size_t i = next_ - back; i < next_ - back + phases; ++i) {
+      const hybrid::Vector& here = numbers_[i % numbers_.size()];
+      course.positions[2 * (i % phases)] = setting_.load.value.at(here);
+      course.positions[2 * (i % phases) + 1] = setting_.motor.value.at(here);
+      for (std::size_t n = 0; n < ranges.size(); ++n) {
+        ranges[n].include(here[static_cast<Eigen::Index>(n)]);
+        course.means[n] += here[static_cast<Eigen::Index>(n)] / static_cast<double>(phases);
+      }
+    }
+    for (const Extent& range : ranges) course.widths.push_back(range.width());
+    return course;
   }
 
  private:
@@ -121,12 +132,11 @@ class Course {
 
   double time() const { return static_cast<double>(next_) * every_; }
 
-  const Watched& load_;
-  const Watched& motor_;
+  const SearchSetting& setting_;
   double every_;
   std::size_t next_ = 0;
   std::size_t count_ = 0;
-  std::array<double, 2 * phases> values_{};
+  std::array<hybrid::Vector, 2 * phases> numbers_{};
 };
 
 class StretchObserver : public hybrid::MotionObserver {
@@ -161,7 +171,8 @@ class StretchObserver : public hybrid::MotionObserver {
     motor_.end();
     include(watch.all, all_.low, all_.high);
     if (is_in_last_) include(stretch.last, last_.low, last_.high);
-    stretch.course = course_.last_period();
+    stretch.course = course_.course(0);
+    stretch.course_before = course_.course(1);
   }
 
  private:
@@ -169,7 +180,7 @@ class StretchObserver : public hybrid::MotionObserver {
   Ranges all_;
   Ranges last_;
   bool is_in_last_ = false;
-  Course course_;
+  CourseWatch course_;
   Turns load_;
   Turns motor_;
   std::vector<hybrid::AffineForm> speeds_;
@@ -347,12 +358,25 @@ double far_away(const SearchSetting& setting, const SearchTolerances& tolerances
   return std::max(far, tolerances.far_grown * setting.farthest_length);
 }
 
-bool grows_away(const Watch& watch, const SearchSetting& setting,
+bool is_far(const Watch& watch, const std::vector<Sample>& turns, const SearchSetting& setting,
+            const SearchTolerances& tolerances) {
+  const double away = std::abs(setting.load.value.at(watch.here.numbers));
+  if (!(away > far_away(setting, tolerances))) return false;
+  // Without a way back it is no swing.
+  constexpr double beyond = 2.0;
+  const bool swings = std::any_of(turns.begin(), turns.end(), [&](const Sample& turn) {
+    return beyond * std::abs(turn.value) > away && turn.time < watch.time;
+  });
+  return away > setting.braked_length || !swings;
+}
+
+bool grows_away(const std::vector<Sample>& turns, const SearchSetting& setting,
                 const SearchTolerances& tolerances) {
-  const std::vector<Sample> turns = extremes(watch.load);
   const std::size_t count = tolerances.growing_swings;
   if (turns.size() < count + 2) return false;
-  if (!(swing(turns, 0) > tolerances.far_grown * setting.farthest_length)) return false;
+  const double far =
+      std::max(tolerances.far_grown * setting.farthest_length, setting.braked_length);
+  if (!(swing(turns, 0) > far)) return false;
   for (std::size_t i = 0; i < count; ++i) {
     const double growth = swing(turns, i) - swing(turns, i + 1);
     if (!(growth > 0.0)) return false;
@@ -367,8 +391,8 @@ bool grows_away(const Watch& watch, const SearchSetting& setting,
 
 bool has_run_away(const Watch& watch, const SearchSetting& setting,
                   const SearchTolerances& tolerances) {
-  return std::abs(setting.load.value.at(watch.here.numbers)) > far_away(setting, tolerances) ||
-         grows_away(watch, setting, tolerances);
+  const std::vector<Sample> turns = extremes(watch.load);
+  return is_far(watch, turns, setting, tolerances) || grows_away(turns, setting, tolerances);
 }
 
 void add_rest(RestFound& rest, double load, double motor, const SearchSetting& setting,

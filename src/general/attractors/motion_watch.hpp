@@ -38,6 +38,13 @@ struct Watch {
   bool starts_at_rest = false;
 };
 
+/// A motion during a period of a sine. Empty if it is not known.
+struct Course {
+  std::vector<double> positions{};  ///< rad, of load and motor in turn, at even phases from 0 on
+  std::vector<double> means{};      ///< of the drive's own numbers
+  std::vector<double> widths{};     ///< of their ranges
+};
+
 /// A stretch of a watched motion.
 struct Stretch {
   double from = 0.0;
@@ -47,9 +54,9 @@ struct Stretch {
   std::string culprit{};
   std::size_t events = 0;
   std::vector<Extent> last{};  ///< of each number in the last half; empty if it did not get there
-  /// rad: load and motor in turn, at even phases of the last period of the sine; of a motion that
-  /// was observed. Empty without a whole period.
-  std::vector<double> course{};
+  /// Of the last period of a sine, and of the one before; of a motion that was observed.
+  Course course{};
+  Course course_before{};
   std::optional<hybrid::Trajectory> motion{};  ///< empty if it was observed and not kept
 };
 
@@ -85,8 +92,9 @@ bool moves_along(const Watch& watch, const Stretch& stretch, const SearchSetting
 bool has_stiction(const ReducedDrive& drive);
 
 /// Whether the load is far beyond all lengths of the drive, those of a torque limit however many
-/// backlashes they are; or swings that grow are, each by no less than the one before: under a
-/// torque limit a motion runs away no faster than that.
+/// backlashes they are; or swings that grow are, each by no less than the one before. Swings of a
+/// limited torque against viscous friction must also be beyond SearchSetting::braked_length, below
+/// which they cease to grow.
 bool has_run_away(const Watch& watch, const SearchSetting& setting,
                   const SearchTolerances& tolerances);
 

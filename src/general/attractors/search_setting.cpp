@@ -115,6 +115,12 @@ double direct_stiffness(const ReducedDrive& drive) {
   return std::abs(controller.direct[1]);
 }
 
+/// Of a settled signal that is no ramp.
+double highest(const Signal& signal) {
+  const auto* sine = std::get_if<Sine>(&signal);
+  return std::abs(middle_of(signal)) + (sine != nullptr ? std::abs(sine->amplitude) : 0.0);
+}
+
 void measure_lengths(SearchSetting& setting, const StartTolerances& starts) {
   const ReducedDrive& drive = setting.drive;
   constexpr double without_gap = 1e-3;  // rad, a usual backlash, for a drive that has none
@@ -130,13 +136,9 @@ void measure_lengths(SearchSetting& setting, const StartTolerances& starts) {
   std::vector<double> lengths = {amplitude};
   if (!drive.error_shape.is_of_speed) lengths.push_back(drive.error_shape.begins);
   if (stiffness > 0.0) {
-    double load_torque = std::abs(middle_of(drive.load_torque));
-    if (const auto* sine = std::get_if<Sine>(&drive.load_torque)) {
-      load_torque += std::abs(sine->amplitude);
-    }
-    for (const double torque :
-         {drive.motor.friction.breakaway + drive.load.friction.breakaway, load_torque,
-          std::isfinite(drive.torque_limit) ? drive.torque_limit : 0.0}) {
+    for (const double torque : {drive.motor.friction.breakaway + drive.load.friction.breakaway,
+                                highest(drive.load_torque),
+                                std::isfinite(drive.torque_limit) ? drive.torque_limit : 0.0}) {
       lengths.push_back(torque / stiffness);
     }
   }
@@ -149,6 +151,11 @@ void measure_lengths(SearchSetting& setting, const StartTolerances& starts) {
   const bool is_bounded = std::isfinite(limit) || drive.error_shape.is_relay();
   if (is_bounded) lengths.push_back(stiffness > 0.0 ? limit / stiffness : infinity);
   setting.farthest_length = *std::max_element(lengths.begin(), lengths.end());
+  const double viscous = drive.motor.friction.viscous + drive.load.friction.viscous;
+  if (std::isfinite(limit) && viscous > 0.0) {
+    setting.braked_length = (drive.motor.inertia + drive.load.inertia) *
+                            (limit + highest(drive.load_torque)) / (viscous * viscous);
+  }
 }
 
 }  // namespace

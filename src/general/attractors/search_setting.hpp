@@ -27,6 +27,10 @@ struct SearchSetting {
   /// rad: the same, with lengths of torques however many backlashes they are. Infinite where a
   /// limited torque has none, because it does not grow with the position at once.
   double farthest_length = 0.0;
+  /// rad: J T/d², over which the highest torque T brings the inertia J of both shafts to the speed
+  /// at which their viscous friction d takes all of it. Swings under a limit end below it; 0
+  /// without a limit or viscous friction.
+  double braked_length = 0.0;
 
   hybrid::State start(const ShaftStates& shafts) const;
   /// A time, not before the given one, at which no clock ticks.

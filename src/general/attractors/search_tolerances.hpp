@@ -131,6 +131,11 @@ struct SearchBudget {
   double settling_times = 30.0;
   /// Swings of the first stretch. Each next one is twice as long.
   double first_stretch = 10.0;
+  /// The first stretch of a sampled drive under a sine that is slower than its loop takes this many
+  /// periods ...
+  double periods_of_sine = 5.0;
+  /// ... or this many once a motion is known that it may join.
+  double periods_to_join = 1.25;
   /// A stretch of a sampled drive ends after this many events, or twice those of the one before: a
   /// motor that ticks after a long standstill has its swings soon.
   std::size_t ticks_of_stretch = 20'000;

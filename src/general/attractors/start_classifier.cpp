@@ -41,7 +41,8 @@ Verdict StartClassifier::watched(Watch& watch, double patience, double longer) {
   const double no_move = tolerances_.rest.no_move * setting_.small_length;
   bool is_costly = setting_.drive.sampling || is_driven(setting_.drive);
   double length = first_stretch();
-  std::size_t most_in_stretch = budget_.ticks_of_stretch;
+  std::size_t most_in_stretch =
+      std::max(budget_.ticks_of_stretch, is_under_sine() ? ticks_in(length) : 0);
   std::optional<SteadyMotion> before;
   while (true) {
     const double until = setting_.between_ticks(watch.time + length);
@@ -80,9 +81,18 @@ std::size_t StartClassifier::most_events() const {
   return options_.most_events + ticks;
 }
 
+std::size_t StartClassifier::ticks_in(double time) const {
+  constexpr double ticks_of_period = 2.0;  // a sample, and its output
+  return static_cast<std::size_t>(ticks_of_period * time / setting_.drive.sampling->period);
+}
+
 double StartClassifier::first_stretch() const {
-  const bool may_join = setting_.drive.sampling ? setting_.common_sine > 0.0 && !known_.empty()
-                                                : !search_.cycles.empty();
+  if (is_under_sine() && setting_.swing_time <= setting_.common_sine) {
+    return setting_.common_sine *
+           (known_.empty() ? budget_.periods_of_sine : budget_.periods_to_join);
+  }
+  const bool may_join =
+      is_under_sine() ? !known_.empty() : !setting_.drive.sampling && !search_.cycles.empty();
   const double share = may_join ? budget_.share_to_join : 1.0;
   return share * budget_.first_stretch * setting_.swing_time;
 }
@@ -218,6 +228,13 @@ const StartClassifier::Known* StartClassifier::known_as(const SteadyMotion& moti
   return known == known_.end() ? nullptr : &*known;
 }
 
+SteadyMotion StartClassifier::steady(const Stretch& stretch, const IrregularFound& found) const {
+  return {.found = found,
+          .ranges = stretch.last,
+          .course = stretch.course,
+          .repeats_course = repeats_course(stretch, found, setting_, tolerances_.irregular)};
+}
+
 bool StartClassifier::joins(const Stretch& stretch, Verdict& verdict) const {
   const auto known = std::find_if(known_.begin(), known_.end(), [&](const Known& one) {
     return runs_along(stretch, one.motion, setting_, tolerances_.irregular);
@@ -237,7 +254,7 @@ bool StartClassifier::is_steady(const Watch& watch, const Stretch& stretch,
     if (watch.events < most_events()) before.reset();  // not of a stretch that was cut short
     return false;
   }
-  const SteadyMotion now{seen.found, stretch.last, stretch.course};
+  const SteadyMotion now = steady(stretch, seen.found);
   if (stretch.motion && may_still_close(now, before)) {
     before = now;
     return false;
@@ -249,7 +266,8 @@ bool StartClassifier::is_steady(const Watch& watch, const Stretch& stretch,
     verdict.irregular = now.found;
     return true;
   }
-  const bool is_repeated = before && is_same(*before, now, setting_, irregular);
+  const bool is_repeated =
+      now.repeats_course || (before && is_same(*before, now, setting_, irregular));
   before = now;
   if (!is_repeated || !is_sure(now.found, irregular, irregular.repeating_exactly) ||
       !excludes_decay(now.found.fastest_decay, now.found.watched)) {
@@ -337,8 +355,7 @@ void StartClassifier::give_up(const Watch& watch, const Stretch& stretch,
     verdict.reason = seen.reason;
     return;
   }
-  const SteadyMotion last =
-      seen.reason.empty() ? SteadyMotion{seen.found, stretch.last, stretch.course} : *before;
+  const SteadyMotion last = seen.reason.empty() ? steady(stretch, seen.found) : *before;
   if (!excludes_decay(last.found.fastest_decay, last.found.watched)) {
     std::ostringstream reason;
     reason << std::setprecision(2) << "after " << watch.time
