@@ -32,12 +32,13 @@ Stretches all_of(const Trapezoid& move) {
   const double top = std::min(move.speed, std::sqrt(distance * move.acceleration));
   const double rising = top / move.acceleration;
   const double cruising = std::max(0.0, distance / top - rising);
-  const double braking = move.time + rising + cruising;
+  const double risen_at = move.time + rising;
+  const double braking = risen_at + cruising;
   const double risen = 0.5 * top * rising;
   Stretches result = {at_rest(move.time, move.from),
                       {move.time, move.from, 0.0, way * move.acceleration}};
-  if (cruising > 0.0) {
-    result.push_back({move.time + rising, move.from + way * risen, way * top, 0.0});
+  if (braking > risen_at) {  // rounding may leave a cruise of no time
+    result.push_back({risen_at, move.from + way * risen, way * top, 0.0});
   }
   result.push_back({braking, move.to - way * risen, way * top, -way * move.acceleration});
   result.push_back(at_rest(braking + rising, move.to));

@@ -94,6 +94,25 @@ TEST(OracleFeedforward, OfTheGapStaysOnTheSideOfTheLastMotion) {
   }
 }
 
+/// The first sample is taken at time 0, as the ramp begins: 1.5 N m, not 1.5 · 2/0.5 N m, and half
+/// the gap times the gain besides.
+TEST(OracleFeedforward, IsWholeAtTheFirstSampleOfARamp) {
+  ReducedDrive drive = controlled_motor();
+  drive.sampling = Sampling{.period = 0.01};
+  drive.reference = Ramp{.value = 0.0, .rate = -2.0, .time = 0.0};
+  drive.feedforward = {.torque = 1.5, .speed = 0.5};
+  const auto torque_at_first = [&] {
+    const DriveSystem built = drive_system(drive);
+    const auto motion = simulate(built.system, drive_start(drive, built, {}), {.until = 0.005});
+    return built.motor_torque(motion.end().mode).at(motion.end().numbers);
+  };
+  EXPECT_NEAR(torque_at_first(), -1.5, 1e-12);
+  drive.feedforward.speed = 0.0;
+  EXPECT_NEAR(torque_at_first(), -1.5, 1e-12);
+  drive.feedforward.half_gap = 0.1;
+  EXPECT_NEAR(torque_at_first(), -1.5 - stiffness * 0.1, 1e-12);
+}
+
 /// The addition changes sides as a lag does.
 TEST(OracleFeedforward, OfTheGapIsTakenUpInItsTime) {
   ReducedDrive drive = controlled_motor();

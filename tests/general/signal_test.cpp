@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/seeded_draws.hpp"
 #include "general/assemble/drive_system.hpp"
 
 namespace gearlash::drive::signal_test {
@@ -49,6 +50,28 @@ TEST(EdgeSignal, FaultsAreNamed) {
   EXPECT_EQ(validate(Table{{0.0}, {}}, "reference").size(), 1U);
   EXPECT_EQ(validate(Trapezoid{}, "reference").size(), 2U);
   EXPECT_EQ(validate(Sine{}, "reference").size(), 1U);
+}
+
+/// The shortest way that reaches the speed has no cruise, but for rounding.
+TEST(PropertySignal, ATrapezoidWithoutACruiseIsOneOfTwoStretches) {
+  constexpr std::uint64_t seed = 43;
+  SeededDraws draws(seed);
+  ReducedDrive drive;
+  drive.motor.inertia = 1.0;
+  drive.load.inertia = 1.0;
+  drive.backlash = 1.0;
+  for (int i = 0; i < 300; ++i) {
+    const double speed = draws.log_uniform(1e-3, 10.0);
+    const double acceleration = draws.log_uniform(1e-3, 100.0);
+    const double start = draws.uniform(0.0, 2.0);
+    drive.reference = Trapezoid{.to = speed * speed / acceleration,
+                                .speed = speed,
+                                .acceleration = acceleration,
+                                .time = start};
+    EXPECT_NO_THROW(simulate(drive_system(drive).system,
+                             drive_start(drive, drive_system(drive), {}), {.until = 3.0}))
+        << "seed " << seed << ", draw " << i;
+  }
 }
 
 /// A motor that nothing but the controller moves: ω = ∫∫ of what is asked, by hand.

@@ -65,6 +65,8 @@ Branch first_branch(const ErrorShape& shape, double input);
 
 /// Signs of the reference's speed.
 void add_feedforward(const DriveForms& forms, const DriveMode& mode, hybrid::AffineMode& built);
+/// The signs at time 0, where all numbers are `start`.
+DriveMode first_feedforward(const DriveForms& forms, const hybrid::Vector& start);
 /// The sign after the reference's course has changed.
 std::vector<hybrid::Alternative> reference_speeds(const DriveForms& forms, const DriveMode& mode);
 

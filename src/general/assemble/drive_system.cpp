@@ -126,6 +126,7 @@ DriveSystem drive_system(const ReducedDrive& drive) {
         return built_mode(*forms, clocks, forms->modes().mode(index));
       });
   result.start = start_of(*forms);
+  result.first_feedforward = first_feedforward(*forms, result.start);
   result.first_readings = first_readings(*forms);
   result.reference = forms->reference();
   result.load_torque = forms->load_torque();
@@ -150,7 +151,7 @@ hybrid::State drive_start(const ReducedDrive& drive, const DriveSystem& system,
                  "must be within half the backlash, " + exact_text(half) + " rad");
   }
   require_none(check.faults());
-  DriveMode mode;
+  DriveMode mode = system.first_feedforward;
   const bool is_closed = std::abs(gap) >= half - (rigid ? unknown : 0.0);
   if (is_closed && (!rigid || shafts.motor_speed == shafts.load_speed)) {
     mode.contact = gap > 0.0 ? ContactState::forward : ContactState::backward;

@@ -18,6 +18,7 @@ struct DriveSystem {
   hybrid::AffineReset first_readings;  ///< sets the encoders, given the shafts' start
   hybrid::AffineForm reference;
   hybrid::AffineForm load_torque;
+  DriveMode first_feedforward{};   ///< its signs at time 0; nothing else
   hybrid::AffineForm shape_input;  ///< of ReducedDrive::error_shape at the start
   /// By the mode's number, modulo their count: they depend on neither contact nor friction.
   std::vector<hybrid::AffineForm> motor_torques;

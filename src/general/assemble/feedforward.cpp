@@ -74,6 +74,19 @@ void add_feedforward(const DriveForms& forms, const DriveMode& mode, hybrid::Aff
   add_way(forms, mode, built);
 }
 
+DriveMode first_feedforward(const DriveForms& forms, const hybrid::Vector& start) {
+  const Feedforward& forward = forms.drive().feedforward;
+  const double speed = forms.reference_speed().at(start);
+  const auto branch_of = [&](double least) {
+    if (std::abs(speed) <= least) return Branch::inner;
+    return speed > 0.0 ? Branch::forward : Branch::backward;
+  };
+  DriveMode mode;
+  if (forward.torque != 0.0) mode.reference_speed = branch_of(whole_speed(forms));
+  if (forward.half_gap != 0.0) mode.reference_way = branch_of(least_speed(forms));
+  return mode;
+}
+
 std::vector<hybrid::Alternative> reference_speeds(const DriveForms& forms, const DriveMode& mode) {
   std::vector<hybrid::Alternative> alternatives;
   for (const Branch branch : {Branch::forward, Branch::backward}) {

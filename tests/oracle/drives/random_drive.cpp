@@ -228,7 +228,10 @@ Drive weight_at_limit(Dice& dice) {
                           : 0.0;
   const double counts = std::nearbyint(dice.between(1.0, 5.0));
   if (dice.chance(0.5)) drive.controller.dead_band.width = counts * step;
-  if (dice.chance(0.3)) drive.controller.dead_band.form = DeadBandForm::whole;
+  if (dice.chance(0.3) && drive.controller.dead_band.width > 0.0) {
+    drive.controller.dead_band.form = DeadBandForm::whole;
+    drive.controller.dead_band.hysteresis = 0.2 * drive.controller.dead_band.width;
+  }
   if (dice.chance(0.3)) drive.controller.compensation.friction = drive.motor.friction.coulomb;
   if (dice.chance(0.3)) {
     drive.controller.compensation.backlash = drive.gearbox.backlash * dice.between(0.3, 1.2);
