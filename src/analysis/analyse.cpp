@@ -238,8 +238,7 @@ Rest rest_of(const drive::AttractorSearch& search, const drive::ReducedDrive& re
             .creeping_starts = found.creeping_starts,
             .time = time_of(search)};
   std::vector<RestPiece> pieces = computed_rest(reduced);
-  const bool is_held = reduced.motor.friction.is_dry() || reduced.load.friction.is_dry();
-  if (!is_held) {
+  if (!drive::has_dry_friction(reduced)) {
     std::erase_if(pieces, [&](const auto& piece) { return !is_reached(piece, search, reduced); });
   }
   if (pieces.empty()) return rest;
@@ -397,14 +396,15 @@ namespace {
 
 using IsEnough = std::function<bool(const drive::AttractorSearch&)>;
 
-/// How a search is made.
-struct Way {
+/// With what a search begins, and where it may stop.
+struct SearchScope {
   const Analysis* near = nullptr;            ///< to be followed
   IsEnough is_enough{};                      ///< as of AttractorOptions
   std::vector<drive::ShaftStates> starts{};  ///< likewise
 };
 
-Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress, const Way& way);
+Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress,
+                  const SearchScope& scope);
 
 /// Whether the motion that a headline names is of so few encoder steps that they may be its cause.
 bool is_of_few_steps(const Answer& answer) {
@@ -435,16 +435,16 @@ std::optional<bool> is_quantization(const Drive& drive, const drive::AttractorSe
   Drive exact = drive;
   exact.sensor.encoder = {};
   exact.sensor.speed_encoder = {};
-  Way way{.is_enough =
-              [](const drive::AttractorSearch& so_far) {
-                return so_far.count(drive::MotionEnd::cycle) +
-                           so_far.count(drive::MotionEnd::irregular) >
-                       0;
-              },
-          .starts = starts_that_swing(search)};
+  SearchScope scope{.is_enough =
+                        [](const drive::AttractorSearch& so_far) {
+                          return so_far.count(drive::MotionEnd::cycle) +
+                                     so_far.count(drive::MotionEnd::irregular) >
+                                 0;
+                        },
+                    .starts = starts_that_swing(search)};
   const Answer answer =
       analysed(exact, {.proofs = false, .borders = false, .motion_bytes = wanted.motion_bytes},
-               progress, way)
+               progress, scope)
           .answer;
   if (answer.largest_stable() != nullptr || !answer.irregular.empty()) return false;
   if (answer.search && !answer.search->is_complete) return std::nullopt;
@@ -453,7 +453,8 @@ std::optional<bool> is_quantization(const Drive& drive, const drive::AttractorSe
   return rests ? std::optional(true) : std::nullopt;
 }
 
-Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress, const Way& way) {
+Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress,
+                  const SearchScope& scope) {
   require_none(faults(drive));
   Analysis analysis;
   analysis.reduced = reduce_settled(drive);
@@ -471,15 +472,15 @@ Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress, 
     analysis.search = drive::AttractorSearch{};
     analysis.answer = answer_by_energy(analysis.reduced);
   } else {
-    if (way.near != nullptr && way.near->search) {
-      analysis.search = drive::follow_attractors(analysis.reduced, *way.near->search, progress);
+    if (scope.near != nullptr && scope.near->search) {
+      analysis.search = drive::follow_attractors(analysis.reduced, *scope.near->search, progress);
       analysis.is_followed = analysis.search.has_value();
     }
     if (!analysis.search) {
       analysis.search = drive::find_attractors(
           analysis.reduced,
-          {.starts = way.starts,
-           .is_enough = way.is_enough,
+          {.starts = scope.starts,
+           .is_enough = scope.is_enough,
            .most_edges = wanted.borders ? drive::AttractorOptions{}.most_edges : 0,
            .band = wanted.rest_band,
            .budget = {.bytes_kept = wanted.motion_bytes}},

@@ -36,7 +36,7 @@ std::vector<Pause> pauses(const std::vector<Sample>& samples, double small) {
 /// Whether dry friction without stiction holds a shaft. With stiction slips have a size of their
 /// own.
 bool has_coulomb_friction_alone(const ReducedDrive& drive) {
-  return !has_stiction(drive) && (drive.motor.friction.is_dry() || drive.load.friction.is_dry());
+  return has_dry_friction(drive) && !has_stiction(drive);
 }
 
 /// Whether friction of a drive without stiction holds it at the end of its watch.

@@ -287,16 +287,6 @@ bool moves_along(const Watch& watch, const Stretch& stretch, const SearchSetting
 
 namespace {
 
-bool has_stiction(const Shaft& shaft) { return shaft.friction.breakaway > shaft.friction.coulomb; }
-
-}  // namespace
-
-bool has_stiction(const ReducedDrive& drive) {
-  return has_stiction(drive.motor) || has_stiction(drive.load);
-}
-
-namespace {
-
 /// rad: a load beyond it has run away.
 double far_away(const SearchSetting& setting, const SearchTolerances& tolerances) {
   const double far = tolerances.far_away * setting.large_length;
@@ -438,8 +428,7 @@ bool has_no_small_size(const ReducedDrive& drive) {
   const auto* torque = std::get_if<double>(&drive.load_torque);
   const bool is_pushed = torque == nullptr || *torque != 0.0;
   const bool is_read = drive.sensing.resolution > 0.0 || drive.sensing.resolution_of_speed > 0.0;
-  return !drive.motor.friction.is_dry() && !drive.load.friction.is_dry() && !is_read &&
-         !drive.error_shape.is_present() && !is_pushed &&
+  return !has_dry_friction(drive) && !is_read && !drive.error_shape.is_present() && !is_pushed &&
          std::holds_alternative<double>(drive.reference);
 }
 

@@ -173,9 +173,7 @@ bool StartClassifier::settles(const Watch& watch, const Stretch& stretch, Verdic
 }
 
 Verdict StartClassifier::disturbed(const State& rest, const Verdict& undisturbed) {
-  const bool is_held =
-      setting_.drive.motor.friction.is_dry() || setting_.drive.load.friction.is_dry();
-  if (is_held || is_disturbed_) return undisturbed;
+  if (has_dry_friction(setting_.drive) || is_disturbed_) return undisturbed;
   const auto known = ends_of_disturbed_.find(rest.mode);
   if (known != ends_of_disturbed_.end()) return known->second;
   is_disturbed_ = true;
