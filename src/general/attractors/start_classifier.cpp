@@ -10,6 +10,7 @@
 #include "general/attractors/motion_measures.hpp"
 #include "general/attractors/time_to_rest.hpp"
 #include "hybrid/limit_in_mode.hpp"
+#include "hybrid/shrinking_rounds.hpp"
 
 namespace gearlash::drive {
 
@@ -126,12 +127,11 @@ bool StartClassifier::is_decided(const Watch& watch, const Stretch& stretch, Ver
   }
   const RestTolerances& rest = tolerances_.rest;
   const bool may_rest = setting_.coordinates != Coordinates::in_place;
-  if (may_rest && settles(watch, stretch, verdict)) return true;
+  if (may_rest && (settles(watch, stretch, verdict) || fades(stretch, verdict))) return true;
   const bool goes_on = !is_endless(stretch);
   const bool rests = is_at_rest(watch, stretch, setting_, rest) ||
                      stands_while_driven(watch, stretch, setting_, tolerances_) ||
-                     (goes_on && (is_vanishing(watch, stretch, verdict) ||
-                                  (stretch.motion && is_fading(watch, stretch, setting_, rest))));
+                     (goes_on && is_vanishing(watch, stretch, verdict));
   if (may_rest ? rests : moves_along(watch, stretch, setting_, rest)) {
     rest_at(watch.here.numbers, verdict);
     return true;
@@ -170,6 +170,15 @@ bool StartClassifier::settles(const Watch& watch, const Stretch& stretch, Verdic
   if (settles_from(watch.here)) return true;
   const auto quiet = stretch.motion ? longest_move(*stretch.motion, setting_) : std::nullopt;
   return quiet && settles_from(stretch.motion->at(*quiet));
+}
+
+bool StartClassifier::fades(const Stretch& stretch, Verdict& verdict) const {
+  if (!stretch.motion) return false;
+  const RestTolerances& rest = tolerances_.rest;
+  const auto limit = hybrid::shrinking_rounds(setting_.system.system(), *stretch.motion,
+                                              rest.fading, rest.vanishing_limit);
+  if (limit) rest_at(limit->numbers, verdict);
+  return limit.has_value();
 }
 
 Verdict StartClassifier::disturbed(const State& rest, const Verdict& undisturbed) {

@@ -83,6 +83,9 @@ class StartClassifier {
   /// Whether the motion comes to rest without another event, which may take for ever; or would have
   /// done so from the middle of its longest move on: events after that are rounding.
   bool settles(const Watch& watch, const Stretch& stretch, Verdict& verdict);
+  /// Whether the motion goes rounds that shrink to rest (shrinking_rounds()), as a shaft that slides
+  /// to the reference and sticks and slips a hundred times a second.
+  bool fades(const Stretch& stretch, Verdict& verdict) const;
   /// What small disturbances of a rest on the border of its mode lead to, if no dry friction holds
   /// it: `undisturbed`, if to rest.
   Verdict disturbed(const hybrid::State& rest, const Verdict& undisturbed);
