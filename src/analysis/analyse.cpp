@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <set>
 #include <string>
 #include <utility>
@@ -19,6 +21,7 @@
 #include "analysis/step_response.hpp"
 #include "base/interval.hpp"
 #include "base/range_check.hpp"
+#include "general/attractors/search_setting.hpp"
 #include "model/proportional_servo.hpp"
 
 namespace gearlash {
@@ -201,15 +204,18 @@ void add_pieces(const std::vector<RestPiece>& pieces, Rest& rest) {
   rest.error = {-load.high, -load.low};
 }
 
-/// Whether a start came to rest there, or at the mirror image.
-bool is_reached(const RestPiece& piece, const drive::AttractorSearch& search,
-                const drive::ReducedDrive& reduced) {
-  const double near = 1e-3 * std::max(reduced.backlash, piece.load.high - piece.load.low);
-  const auto is_there = [&](double load) {
-    return piece.load.low - near <= load && load <= piece.load.high + near;
-  };
+RestPlace mirrored(const RestPlace& place) {
+  RestPlace image = place;
+  image.load = -place.load;
+  if (place.motor) image.motor = -*place.motor;
+  return image;
+}
+
+/// Whether a start came to rest there; or at the mirror image, of a drive that is its own.
+bool is_reached(const RestPiece& piece, const drive::AttractorSearch& search, bool has_image) {
   return std::any_of(search.outcomes.begin(), search.outcomes.end(), [&](const auto& start) {
-    return start.end == drive::MotionEnd::rest && (is_there(start.load) || is_there(-start.load));
+    return start.rest &&
+           (may_hold(piece, *start.rest) || (has_image && may_hold(piece, mirrored(*start.rest))));
   });
 }
 
@@ -222,7 +228,8 @@ std::optional<TimeToRest> time_of(const drive::AttractorSearch& search) {
   }
   if (times.empty()) return std::nullopt;
   std::sort(times.begin(), times.end());
-  return TimeToRest{search.band, times.back(), times[(times.size() - 1) / 2]};
+  const double median = std::midpoint(times[(times.size() - 1) / 2], times[times.size() / 2]);
+  return TimeToRest{search.band, times.back(), median};
 }
 
 /// The rest that starts led to, with all equilibria where they are known. Without dry friction,
@@ -238,8 +245,11 @@ Rest rest_of(const drive::AttractorSearch& search, const drive::ReducedDrive& re
             .creeping_starts = found.creeping_starts,
             .time = time_of(search)};
   std::vector<RestPiece> pieces = computed_rest(reduced);
-  if (!drive::has_dry_friction(reduced)) {
-    std::erase_if(pieces, [&](const auto& piece) { return !is_reached(piece, search, reduced); });
+  const bool has_image = drive::is_own_image(reduced);
+  const auto reached = [&](const RestPiece& piece) { return is_reached(piece, search, has_image); };
+  // Where none is reached the answer contradicts itself, and keeps what shows it.
+  if (!drive::has_dry_friction(reduced) && std::any_of(pieces.begin(), pieces.end(), reached)) {
+    std::erase_if(pieces, std::not_fn(reached));
   }
   if (pieces.empty()) return rest;
   const Rest seen = rest;
@@ -263,6 +273,7 @@ StartOutcome outcome_of(const drive::Outcome& found) {
                        .end = name_of(found.end),
                        .watched = found.watched,
                        .reason = found.reason,
+                       .rest = found.rest,
                        .time_to_rest = found.time_to_rest};
   if (found.end == drive::MotionEnd::cycle || found.end == drive::MotionEnd::irregular) {
     outcome.which = found.which;

@@ -323,7 +323,7 @@ void add_rest(RestFound& rest, double load, double motor, const SearchSetting& s
   const auto place = [&](double value) {
     return std::abs(value) > tolerances.no_move * setting.small_length ? value : 0.0;
   };
-  const bool has_image = is_mirrored(setting.drive) && reads_mirrored(setting.drive);
+  const bool has_image = is_own_image(setting.drive);
   for (const double way : {1.0, -1.0}) {
     if (way < 0.0 && !has_image) break;
     rest.load.include(way * place(load) + 0.0);  // no −0
