@@ -499,7 +499,7 @@ Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress,
     }
     analysis.answer = answer_of(*analysis.search, analysis.reduced);
   }
-  add_figures(analysis.reduced, wanted, analysis.answer);
+  add_figures(analysis.reduced, wanted, analysis.answer, progress);
   if (wanted.ceiling) {
     analysis.answer.ceiling->mesh_torque = highest_mean_mesh_torque(analysis.reduced);
     analysis.answer.ceiling->mesh_torque_reason = obstacle_of_mesh_torque(analysis.reduced);
@@ -538,7 +538,8 @@ void ask_for(Quantity quantity, const Drive& base, Wanted& wanted) {
   }
 }
 
-void add_figures(const drive::ReducedDrive& drive, const Wanted& wanted, Answer& answer) {
+void add_figures(const drive::ReducedDrive& drive, const Wanted& wanted, Answer& answer,
+                 Progress& progress) {
   if (wanted.ceiling) answer.ceiling = ceiling_of(drive);
   // The closed form permits what cannot be followed: no gap, which the loop leaves out anyway, and
   // a shaft without inertia.
@@ -546,7 +547,8 @@ void add_figures(const drive::ReducedDrive& drive, const Wanted& wanted, Answer&
   if (drive.backlash == 0.0) with_gap.backlash = 1.0;
   if (wanted.loop && validate(with_gap).empty()) answer.loop = drive::loop_figures(with_gap);
   if (wanted.step && validate(drive).empty()) {
-    answer.step = drive::step_response(drive, *wanted.step, drive::usual_step(drive).until);
+    answer.step =
+        drive::step_response(drive, *wanted.step, drive::usual_step(drive).until, progress);
   }
 }
 

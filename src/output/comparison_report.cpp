@@ -136,9 +136,11 @@ ComparisonReport compare_sensors(const Drive& drive, const std::vector<SensorPla
     placed.sensor.speed.reset();
     const drive::ReducedDrive reduced = reduce(placed);
     const Answer answer = answer_of(drive::find_attractors(reduced, {}, part), reduced);
+    ProgressPart at_end(part, 1.0, 1.0);
+    const StepResponse response = drive::step_response(reduced, step.size, step.until, at_end);
     report.cases.push_back({.place = place,
                             .report = report_of(placed, answer, style.angle, style.provenance),
-                            .response = drive::step_response(reduced, step.size, step.until)});
+                            .response = response});
   }
   return report;
 }
