@@ -42,8 +42,7 @@ std::string amplitude_text(const ComparisonReport& report, const SensorCase& one
   if (motion.is_motor_alone && motion.motor_amplitude) {
     return "motor ±" + angle(report, *motion.motor_amplitude);
   }
-  if (repeats(motion)) return "±" + angle(report, *motion.mean_amplitude);
-  return "up to ±" + angle(report, motion.amplitude);
+  return (repeats(motion) ? "±" : "up to ±") + angle(report, motion.amplitude);
 }
 
 std::string pace_text(const ComparisonReport& report, const SensorCase& one) {

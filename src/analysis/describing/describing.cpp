@@ -465,7 +465,7 @@ std::vector<ExactMotion> exact_motions(const Answer& answer) {
                        cycle.stability == Stability::stable});
   }
   for (const IrregularMotion& motion : answer.irregular) {
-    motions.push_back({reported_amplitude(motion), motion.motor_amplitude.value_or(unknown),
+    motions.push_back({motion.amplitude, motion.motor_amplitude.value_or(unknown),
                        motion.mean_period.value_or(unknown), true});
   }
   return motions;
