@@ -115,12 +115,16 @@ void check_options(const DesignOptions& options, Faults& faults) {
   }
 }
 
-std::string draw(const RegionMapTask& task, const Region& region, PictureFormat format) {
+std::string draw(const RegionMapTask& task, const Region& region, const Plot& plot,
+                 LimitedWork& work) {
   const std::size_t count = values_to_draw(task.drive, region.axes[0], region.axes[1]);
   const auto axis = [&](const std::string& parameter) {
     return parameter_axis(parameter, range_to_draw(task.drive, parameter), count);
   };
-  return draw_contour_map(map_of(task, axis(region.axes[0]), axis(region.axes[1])), format);
+  TerminalProgress progress(work, "Region");
+  const ContourMap map = map_of(task, axis(region.axes[0]), axis(region.axes[1]), progress);
+  if (work.is_stopped()) throw OutputError(plot.file + ": not drawn: the work was stopped before");
+  return draw_contour_map(map, plot.format);
 }
 
 std::vector<FeasibleValues> work_out(const ChangeableDrive& drive, const Target& target,
@@ -168,7 +172,7 @@ ExitStatus run_closed_form(const DesignOptions& options, const Target& target,
   const ExitStatus status =
       end_work(work, ExitStatus::done, unknown_text(known, parameters.size()));
   for (const Plot& plot : plots) {
-    extras.make([&] { write_file(plot.file, draw(map, region, plot.format)); });
+    extras.make([&] { write_file(plot.file, draw(map, region, plot, work)); });
   }
   return extras.status(status);
 }

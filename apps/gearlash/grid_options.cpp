@@ -12,6 +12,7 @@
 #include "analysis/grid/grid_evaluation.hpp"
 #include "analysis/grid/grid_pieces.hpp"
 #include "analysis/grid/hunting_boundary.hpp"
+#include "base/progress_part.hpp"
 #include "base/range_check.hpp"
 #include "input/axis_text.hpp"
 #include "machine_faults.hpp"
@@ -287,7 +288,8 @@ GridCount write_netcdf(const GridTask& task, const Provenance& provenance, const
       },
       progress, steady_seconds);
   if (task.has_boundary && !count.stopped) {
-    file.write_boundary(hunting_boundary(task.grid, growth_at_rest));
+    ProgressPart at_end(progress, 1.0, 1.0);
+    file.write_boundary(hunting_boundary(task.grid, growth_at_rest, at_end));
   }
   file.close();
   return count;

@@ -146,7 +146,8 @@ void add_changes(Result& result, const Drive& drive, const Changes& wanted, Limi
   }
   if (!wanted.sensitivities) return;
   if (!is_closed) {
-    result.report.sensitivity = searched_derivatives(drive, result.analysis);
+    TerminalProgress progress(work, "Sensitivities");
+    result.report.sensitivity = searched_derivatives(drive, result.analysis, progress);
   } else {
     result.report.sensitivity = is_sound ? drive_sensitivity(*changeable) : Jacobian{};
   }

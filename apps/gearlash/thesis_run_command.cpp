@@ -138,16 +138,16 @@ struct AllRuns {
 AllRuns run_all(bool on_machine, LimitedWork& work) {
   TerminalProgress progress(work, "Charts");
   if (!on_machine) {
-    const auto run = [](const thesis::ProgramParameters& parameters) {
-      return thesis::run_until_settled(parameters);
+    const auto run = [](const thesis::ProgramParameters& parameters, Progress& of_run) {
+      return thesis::run_until_settled(parameters, {}, of_run);
     };
     return {thesis::chart_errors(run, progress), ""};
   }
   const auto start = std::chrono::steady_clock::now();
   std::size_t instructions = 0;
   const auto errors = thesis::chart_errors(
-      [&](const thesis::ProgramParameters& parameters) {
-        const thesis::MachineRun run = thesis::run_machine_until_settled(parameters);
+      [&](const thesis::ProgramParameters& parameters, Progress& of_run) {
+        const thesis::MachineRun run = thesis::run_machine_until_settled(parameters, of_run);
         instructions += run.instructions;
         return run.cycle;
       },

@@ -107,7 +107,7 @@ struct RestPiece {
 struct TimeToRest {
   double band = 0.0;     ///< rad: the specification, else half an encoder step, else 1 % of the gap
   double longest = 0.0;  ///< s
-  double median = 0.0;   ///< s
+  double median = 0.0;   ///< s; the mean of the two middle ones of an even number
 };
 
 /// Where it can rest. With dry friction, or in the gap, that is a set. Its ends are those where no
@@ -137,7 +137,8 @@ struct IrregularMotion {
   std::optional<double> motor_amplitude{};  ///< rad
   double center = 0.0;                      ///< rad, of the load, from the reference
   bool is_motor_alone = false;  ///< the motor moves within the gap, the load hardly moves
-  std::optional<double> mean_amplitude{};       ///< rad, half of extreme to extreme
+  /// rad, half of extreme to extreme; of the motor if it moves alone.
+  std::optional<double> mean_amplitude{};
   std::optional<double> amplitude_deviation{};  ///< rad, its standard deviation
   std::optional<double> mean_period{};          ///< s
   std::optional<double> period_deviation{};     ///< s, its standard deviation
@@ -151,6 +152,17 @@ struct IrregularMotion {
 /// Hunting of at most this many encoder steps, peak to peak, may be quantization.
 inline constexpr double steps_of_quantization = 4.0;
 
+/// Where a start of a search comes to rest.
+struct RestPlace {
+  /// rad, from the reference; the limit, by its law, of a motion that never quite gets there; where
+  /// it stood last, if it creeps by no known law.
+  double load = 0.0;
+  std::optional<double> motor{};  ///< rad, likewise; empty where the law is that of the load alone
+  /// rad, by which these may be off: rounding, or the last step of an approach that goes on. Empty
+  /// where the drive creeps by no known law.
+  std::optional<double> uncertainty{};
+};
+
 /// Where a start of a search led.
 struct StartOutcome {
   double load_position = 0.0;            ///< rad
@@ -161,6 +173,7 @@ struct StartOutcome {
   std::optional<std::size_t> which{};    ///< index into the cycles, or into the irregular motions
   double watched = 0.0;                  ///< s
   std::string reason{};                  ///< why it is undecided
+  std::optional<RestPlace> rest{};       ///< if it comes to rest
   std::optional<double> time_to_rest{};  ///< s, as of Rest::time
 };
 

@@ -45,7 +45,8 @@ struct Jacobian {
 /// nor within 0.3 % of the end of its permitted range. Jacobian::reason says why a cycle has none:
 /// a computer's ticks, an encoder's steps, infinitely many bounces in a period, a multiplier of 1.
 /// They hold as long as the cycle has the same events. They take seconds: the search of the cycle.
-/// If Progress stops it, the cycle is the one found by then.
+/// If Progress stops it, the cycle is the one found by then, and the slopes not computed by then
+/// are empty.
 ///
 /// Throws InvalidInput for a drive that is unsound, for another quantity, and for a path that is no
 /// number of the drive, or with a closed form does not enter it.

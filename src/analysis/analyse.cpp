@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <set>
 #include <string>
 #include <utility>
@@ -19,6 +21,7 @@
 #include "analysis/step_response.hpp"
 #include "base/interval.hpp"
 #include "base/range_check.hpp"
+#include "general/attractors/search_setting.hpp"
 #include "model/proportional_servo.hpp"
 
 namespace gearlash {
@@ -201,15 +204,18 @@ void add_pieces(const std::vector<RestPiece>& pieces, Rest& rest) {
   rest.error = {-load.high, -load.low};
 }
 
-/// Whether a start came to rest there, or at the mirror image.
-bool is_reached(const RestPiece& piece, const drive::AttractorSearch& search,
-                const drive::ReducedDrive& reduced) {
-  const double near = 1e-3 * std::max(reduced.backlash, piece.load.high - piece.load.low);
-  const auto is_there = [&](double load) {
-    return piece.load.low - near <= load && load <= piece.load.high + near;
-  };
+RestPlace mirrored(const RestPlace& place) {
+  RestPlace image = place;
+  image.load = -place.load;
+  if (place.motor) image.motor = -*place.motor;
+  return image;
+}
+
+/// Whether a start came to rest there; or at the mirror image, of a drive that is its own.
+bool is_reached(const RestPiece& piece, const drive::AttractorSearch& search, bool has_image) {
   return std::any_of(search.outcomes.begin(), search.outcomes.end(), [&](const auto& start) {
-    return start.end == drive::MotionEnd::rest && (is_there(start.load) || is_there(-start.load));
+    return start.rest &&
+           (may_hold(piece, *start.rest) || (has_image && may_hold(piece, mirrored(*start.rest))));
   });
 }
 
@@ -222,7 +228,8 @@ std::optional<TimeToRest> time_of(const drive::AttractorSearch& search) {
   }
   if (times.empty()) return std::nullopt;
   std::sort(times.begin(), times.end());
-  return TimeToRest{search.band, times.back(), times[(times.size() - 1) / 2]};
+  const double median = std::midpoint(times[(times.size() - 1) / 2], times[times.size() / 2]);
+  return TimeToRest{search.band, times.back(), median};
 }
 
 /// The rest that starts led to, with all equilibria where they are known. Without dry friction,
@@ -238,9 +245,11 @@ Rest rest_of(const drive::AttractorSearch& search, const drive::ReducedDrive& re
             .creeping_starts = found.creeping_starts,
             .time = time_of(search)};
   std::vector<RestPiece> pieces = computed_rest(reduced);
-  const bool is_held = reduced.motor.friction.is_dry() || reduced.load.friction.is_dry();
-  if (!is_held) {
-    std::erase_if(pieces, [&](const auto& piece) { return !is_reached(piece, search, reduced); });
+  const bool has_image = drive::is_own_image(reduced);
+  const auto reached = [&](const RestPiece& piece) { return is_reached(piece, search, has_image); };
+  // Where none is reached the answer contradicts itself, and keeps what shows it.
+  if (!drive::has_dry_friction(reduced) && std::any_of(pieces.begin(), pieces.end(), reached)) {
+    std::erase_if(pieces, std::not_fn(reached));
   }
   if (pieces.empty()) return rest;
   const Rest seen = rest;
@@ -264,6 +273,7 @@ StartOutcome outcome_of(const drive::Outcome& found) {
                        .end = name_of(found.end),
                        .watched = found.watched,
                        .reason = found.reason,
+                       .rest = found.rest,
                        .time_to_rest = found.time_to_rest};
   if (found.end == drive::MotionEnd::cycle || found.end == drive::MotionEnd::irregular) {
     outcome.which = found.which;
@@ -398,14 +408,15 @@ namespace {
 
 using IsEnough = std::function<bool(const drive::AttractorSearch&)>;
 
-/// How a search is made.
-struct Way {
+/// With what a search begins, and where it may stop.
+struct SearchScope {
   const Analysis* near = nullptr;            ///< to be followed
   IsEnough is_enough{};                      ///< as of AttractorOptions
   std::vector<drive::ShaftStates> starts{};  ///< likewise
 };
 
-Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress, const Way& way);
+Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress,
+                  const SearchScope& scope);
 
 /// Whether the motion that a headline names is of so few encoder steps that they may be its cause.
 bool is_of_few_steps(const Answer& answer) {
@@ -436,16 +447,16 @@ std::optional<bool> is_quantization(const Drive& drive, const drive::AttractorSe
   Drive exact = drive;
   exact.sensor.encoder = {};
   exact.sensor.speed_encoder = {};
-  Way way{.is_enough =
-              [](const drive::AttractorSearch& so_far) {
-                return so_far.count(drive::MotionEnd::cycle) +
-                           so_far.count(drive::MotionEnd::irregular) >
-                       0;
-              },
-          .starts = starts_that_swing(search)};
+  SearchScope scope{.is_enough =
+                        [](const drive::AttractorSearch& so_far) {
+                          return so_far.count(drive::MotionEnd::cycle) +
+                                     so_far.count(drive::MotionEnd::irregular) >
+                                 0;
+                        },
+                    .starts = starts_that_swing(search)};
   const Answer answer =
       analysed(exact, {.proofs = false, .borders = false, .motion_bytes = wanted.motion_bytes},
-               progress, way)
+               progress, scope)
           .answer;
   if (answer.largest_stable() != nullptr || !answer.irregular.empty()) return false;
   if (answer.search && !answer.search->is_complete) return std::nullopt;
@@ -454,7 +465,8 @@ std::optional<bool> is_quantization(const Drive& drive, const drive::AttractorSe
   return rests ? std::optional(true) : std::nullopt;
 }
 
-Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress, const Way& way) {
+Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress,
+                  const SearchScope& scope) {
   require_none(faults(drive));
   Analysis analysis;
   analysis.reduced = reduce_settled(drive);
@@ -472,15 +484,15 @@ Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress, 
     analysis.search = drive::AttractorSearch{};
     analysis.answer = answer_by_energy(analysis.reduced);
   } else {
-    if (way.near != nullptr && way.near->search) {
-      analysis.search = drive::follow_attractors(analysis.reduced, *way.near->search, progress);
+    if (scope.near != nullptr && scope.near->search) {
+      analysis.search = drive::follow_attractors(analysis.reduced, *scope.near->search, progress);
       analysis.is_followed = analysis.search.has_value();
     }
     if (!analysis.search) {
       analysis.search = drive::find_attractors(
           analysis.reduced,
-          {.starts = way.starts,
-           .is_enough = way.is_enough,
+          {.starts = scope.starts,
+           .is_enough = scope.is_enough,
            .most_edges = wanted.borders ? drive::AttractorOptions{}.most_edges : 0,
            .band = wanted.rest_band,
            .budget = {.bytes_kept = wanted.motion_bytes}},
@@ -488,7 +500,7 @@ Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress, 
     }
     analysis.answer = answer_of(*analysis.search, analysis.reduced);
   }
-  add_figures(analysis.reduced, wanted, analysis.answer);
+  add_figures(analysis.reduced, wanted, analysis.answer, progress);
   if (wanted.ceiling) {
     analysis.answer.ceiling->mesh_torque = highest_mean_mesh_torque(analysis.reduced);
     analysis.answer.ceiling->mesh_torque_reason = obstacle_of_mesh_torque(analysis.reduced);
@@ -527,7 +539,8 @@ void ask_for(Quantity quantity, const Drive& base, Wanted& wanted) {
   }
 }
 
-void add_figures(const drive::ReducedDrive& drive, const Wanted& wanted, Answer& answer) {
+void add_figures(const drive::ReducedDrive& drive, const Wanted& wanted, Answer& answer,
+                 Progress& progress) {
   if (wanted.ceiling) answer.ceiling = ceiling_of(drive);
   // The closed form permits what cannot be followed: no gap, which the loop leaves out anyway, and
   // a shaft without inertia.
@@ -535,7 +548,8 @@ void add_figures(const drive::ReducedDrive& drive, const Wanted& wanted, Answer&
   if (drive.backlash == 0.0) with_gap.backlash = 1.0;
   if (wanted.loop && validate(with_gap).empty()) answer.loop = drive::loop_figures(with_gap);
   if (wanted.step && validate(drive).empty()) {
-    answer.step = drive::step_response(drive, *wanted.step, drive::usual_step(drive).until);
+    answer.step =
+        drive::step_response(drive, *wanted.step, drive::usual_step(drive).until, progress);
   }
 }
 

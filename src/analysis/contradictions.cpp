@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "analysis/energy/computed_rest.hpp"
 #include "base/range_check.hpp"
 
 namespace gearlash {
@@ -39,6 +40,20 @@ bool is_listed(const StartOutcome& start, const Answer& answer) {
   return true;
 }
 
+/// The first start that rests where nothing can, by the equations of equilibrium; nullptr if there
+/// is none, or where these were not computed.
+const StartOutcome* start_beside_rest(const Answer& answer) {
+  if (!answer.rest || answer.rest->pieces.empty()) return nullptr;
+  const std::vector<RestPiece>& pieces = answer.rest->pieces;
+  const std::vector<StartOutcome>& starts = answer.search->starts;
+  const auto found = std::find_if(starts.begin(), starts.end(), [&](const StartOutcome& start) {
+    return start.rest && std::none_of(pieces.begin(), pieces.end(), [&](const RestPiece& piece) {
+             return may_hold(piece, *start.rest);
+           });
+  });
+  return found == starts.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 std::vector<std::string> contradictions(const Answer& answer) {
@@ -49,6 +64,10 @@ std::vector<std::string> contradictions(const Answer& answer) {
   if (!std::all_of(starts.begin(), starts.end(),
                    [&](const StartOutcome& start) { return is_listed(start, answer); })) {
     all.push_back("A start leads to an end that is not listed.");
+  }
+  if (const StartOutcome* start = start_beside_rest(answer)) {
+    all.push_back("A start comes to rest with the load at " + exact_text(start->rest->load) +
+                  " rad from the reference, where the computed equilibria do not reach.");
   }
   return all;
 }

@@ -17,8 +17,4 @@ bool repeats(const IrregularMotion& motion) {
          *motion.period_deviation <= steady_pace * *motion.mean_period;
 }
 
-double reported_amplitude(const IrregularMotion& motion) {
-  return repeats(motion) ? *motion.mean_amplitude : motion.amplitude;
-}
-
 }  // namespace gearlash

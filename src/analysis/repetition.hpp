@@ -10,8 +10,4 @@ namespace gearlash {
 /// and again has no derivative by which Newton's method could close a cycle.
 [[nodiscard]] bool repeats(const IrregularMotion& motion);
 
-/// The amplitude by which reports name the motion: the mean of swings that repeat, else the
-/// largest.
-[[nodiscard]] double reported_amplitude(const IrregularMotion& motion);
-
 }  // namespace gearlash

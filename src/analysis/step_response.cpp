@@ -97,7 +97,7 @@ class Path {
   std::vector<Point> points_;
 };
 
-void measure(const Path& path, StepResponse& response) {
+void measure(const Path& path, bool is_stopped, StepResponse& response) {
   const double step = std::abs(response.step);
   const std::optional<double> low = path.first_passing(0.1 * step);
   const std::optional<double> high = path.first_passing(0.9 * step);
@@ -106,7 +106,7 @@ void measure(const Path& path, StepResponse& response) {
   // A sustained oscillation may end within the band by chance. It has settled only if it stays
   // there for the whole last fifth.
   const std::optional<double> settled = path.time_into_band(step, response.band);
-  if (settled && *settled <= late) response.settling_time = settled;
+  if (settled && *settled <= late && !is_stopped) response.settling_time = settled;
   double highest = 0.0;
   double last_lowest = std::numeric_limits<double>::infinity();
   double last_highest = -last_lowest;
@@ -123,7 +123,7 @@ void measure(const Path& path, StepResponse& response) {
 }
 
 /// The motion whose response is measured.
-hybrid::Trajectory step_motion(ReducedDrive drive, double step, double until) {
+hybrid::Trajectory step_motion(ReducedDrive drive, double step, double until, Progress& progress) {
   RangeCheck check;
   if (!(std::isfinite(step) && step != 0.0)) {
     check.refuse("step", exact_text(step), "must be finite and not 0, rad");
@@ -134,8 +134,9 @@ hybrid::Trajectory step_motion(ReducedDrive drive, double step, double until) {
   const DriveSystem system = drive_system(drive);
   const double way = step < 0.0 ? -1.0 : 1.0;
   const ShaftStates rest{.motor_position = way * 0.5 * drive.backlash};
-  return hybrid::simulate(system.system, drive_start(drive, system, rest),
-                          {.until = until, .step_limit = most_steps_of_a_motion});
+  return hybrid::simulate(
+      system.system, drive_start(drive, system, rest),
+      {.until = until, .step_limit = most_steps_of_a_motion, .progress = &progress});
 }
 
 }  // namespace
@@ -151,13 +152,17 @@ Step usual_step(const ReducedDrive& drive) {
   return {usual_step_size(drive.backlash), swings * time_scales(drive).swing};
 }
 
-StepResponse step_response(const ReducedDrive& drive, double step, double until) {
-  const hybrid::Trajectory motion = step_motion(drive, step, until);
+StepResponse step_response(const ReducedDrive& drive, double step, double until,
+                           Progress& progress) {
+  const hybrid::Trajectory motion = step_motion(drive, step, until, progress);
   constexpr double share = 0.05;
   StepResponse response{.step = step, .until = motion.end_time()};
   response.band = share * std::abs(step);
   response.is_whole = motion.stop_reason() == hybrid::StopReason::reached_end;
-  if (motion.end_time() > 0.0) measure(Path(motion, step < 0.0 ? -1.0 : 1.0), response);
+  const bool is_stopped = motion.stop_reason() == hybrid::StopReason::stopped;
+  if (motion.end_time() > 0.0) {
+    measure(Path(motion, step < 0.0 ? -1.0 : 1.0), is_stopped, response);
+  }
   return response;
 }
 

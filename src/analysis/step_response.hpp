@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gearlash/answer.hpp"
+#include "gearlash/progress.hpp"
 #include "general/assemble/drive_system.hpp"
 
 namespace gearlash::drive {
@@ -15,7 +16,9 @@ double usual_step_size(double backlash);  ///< rad: ten backlashes, or 1° witho
 Step usual_step(const ReducedDrive& drive);
 
 /// Times and extremes are found to rounding between 4096 samples and all events; a swing that
-/// begins and ends between two of them is missed. Throws InvalidInput.
-StepResponse step_response(const ReducedDrive& drive, double step, double until);
+/// begins and ends between two of them is missed. Stopped by Progress, it is that of the motion by
+/// then, which has not settled. Throws InvalidInput.
+StepResponse step_response(const ReducedDrive& drive, double step, double until,
+                           Progress& progress = no_progress());
 
 }  // namespace gearlash::drive

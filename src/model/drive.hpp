@@ -22,8 +22,10 @@ struct ShaftFriction {
   double stribeck_speed = 0.0;  ///< rad/s, ≥ 0
 
   bool is_dry() const { return breakaway > 0.0; }
+  /// Whether friction at rest is higher than that of motion.
+  bool has_stiction() const { return breakaway > coulomb; }
   /// Whether the dry part falls over a range of speeds.
-  bool falls() const { return stribeck_speed > 0.0 && breakaway > coulomb; }
+  bool falls() const { return stribeck_speed > 0.0 && has_stiction(); }
 };
 
 struct Shaft {
@@ -140,6 +142,16 @@ struct ReducedDrive {
 /// Whether the shafts are joined by a spring without a gap.
 inline bool is_joined(const ReducedDrive& drive) {
   return drive.backlash == 0.0 && std::holds_alternative<CompliantContact>(drive.contact);
+}
+
+/// Whether dry friction acts on either shaft.
+inline bool has_dry_friction(const ReducedDrive& drive) {
+  return drive.motor.friction.is_dry() || drive.load.friction.is_dry();
+}
+
+/// Whether friction at rest is higher than that of motion, on either shaft.
+inline bool has_stiction(const ReducedDrive& drive) {
+  return drive.motor.friction.has_stiction() || drive.load.friction.has_stiction();
 }
 
 /// Whether gap and dry friction are all that is not linear in the drive, its sensors and limits

@@ -23,8 +23,7 @@ bool is_undisturbed(const ReducedDrive& drive) {
 bool is_smooth(const ReducedDrive& drive) {
   return has_linear_control(drive) && std::isinf(drive.winding.torque_limit) && !drive.sampling &&
          drive.sensing.resolution == 0.0 && std::isinf(drive.torque_limit) &&
-         drive.winding.time_constant == 0.0 && !drive.motor.friction.is_dry() &&
-         !drive.load.friction.is_dry();
+         drive.winding.time_constant == 0.0 && !drive::has_dry_friction(drive);
 }
 
 }  // namespace

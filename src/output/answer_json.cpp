@@ -110,6 +110,13 @@ Json json_threshold(const Threshold& threshold) {
           {"from", json_number(threshold.from)}};
 }
 
+Json json_place(const std::optional<RestPlace>& place) {
+  if (!place) return nullptr;
+  return {{"load", json_number(place->load)},
+          {"motor", json_optional(place->motor)},
+          {"uncertainty", json_optional(place->uncertainty)}};
+}
+
 Json json_start(const StartOutcome& start) {
   return {{"load_position", json_number(start.load_position)},
           {"load_speed", json_number(start.load_speed)},
@@ -119,6 +126,7 @@ Json json_start(const StartOutcome& start) {
           {"which", start.which ? Json(*start.which) : Json(nullptr)},
           {"watched", json_number(start.watched)},
           {"reason", start.reason.empty() ? Json(nullptr) : Json(start.reason)},
+          {"rest", json_place(start.rest)},
           {"time_to_rest", json_optional(start.time_to_rest)}};
 }
 

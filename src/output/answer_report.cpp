@@ -110,7 +110,7 @@ std::string motion_text(const AnswerReport& report) {
   if (motion.is_motor_alone && motion.motor_amplitude) {
     return of_motor(*motion.motor_amplitude) + at + ", while the load hardly moves";
   }
-  return (repeats(motion) ? "" : "up to ") + amplitude(reported_amplitude(motion)) + at +
+  return (repeats(motion) ? "" : "up to ") + amplitude(motion.amplitude) + at +
          quantization_text(report, motion.encoder_steps);
 }
 

@@ -42,8 +42,7 @@ std::string amplitude_text(const ComparisonReport& report, const SensorCase& one
   if (motion.is_motor_alone && motion.motor_amplitude) {
     return "motor ±" + angle(report, *motion.motor_amplitude);
   }
-  if (repeats(motion)) return "±" + angle(report, *motion.mean_amplitude);
-  return "up to ±" + angle(report, motion.amplitude);
+  return (repeats(motion) ? "±" : "up to ±") + angle(report, motion.amplitude);
 }
 
 std::string pace_text(const ComparisonReport& report, const SensorCase& one) {
@@ -136,9 +135,11 @@ ComparisonReport compare_sensors(const Drive& drive, const std::vector<SensorPla
     placed.sensor.speed.reset();
     const drive::ReducedDrive reduced = reduce(placed);
     const Answer answer = answer_of(drive::find_attractors(reduced, {}, part), reduced);
+    ProgressPart at_end(part, 1.0, 1.0);
+    const StepResponse response = drive::step_response(reduced, step.size, step.until, at_end);
     report.cases.push_back({.place = place,
                             .report = report_of(placed, answer, style.angle, style.provenance),
-                            .response = drive::step_response(reduced, step.size, step.until)});
+                            .response = response});
   }
   return report;
 }

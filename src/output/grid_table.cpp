@@ -90,9 +90,10 @@ bool has_regions(const Grid& grid) {
 }  // namespace
 
 void add_borders(GridTable& table, Progress& progress) {
-  table.hunting_boundary = hunting_boundary(table.grid, table.table[Quantity::growth_at_rest]);
+  table.hunting_boundary =
+      hunting_boundary(table.grid, table.table[Quantity::growth_at_rest], progress);
   if (!progress.go_on(0.0)) return;
-  table.dissipative_boundary = dissipative_boundary(table.grid);
+  table.dissipative_boundary = dissipative_boundary(table.grid, progress);
   if (has_regions(table.grid)) table.regions = motion_regions(table.grid, table.table, progress);
 }
 

@@ -45,8 +45,7 @@ std::vector<Compared> compared(const AnswerReport& report) {
   for (std::size_t i = 0; i < irregular.size(); ++i) {
     const IrregularMotion& motion = irregular[i];
     if (!motion.mean_period || motion.is_motor_alone) continue;
-    add("irregular", i, motion.mean_amplitude.value_or(motion.amplitude),
-        1.0 / *motion.mean_period);
+    add("irregular", i, motion.amplitude, 1.0 / *motion.mean_period);
   }
   std::stable_sort(all.begin(), all.end(), [](const Compared& one, const Compared& other) {
     return one.distance() < other.distance();

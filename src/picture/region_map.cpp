@@ -34,8 +34,9 @@ std::string meaning_of(Cost cost) {
 
 }  // namespace
 
-ContourMap map_of(const RegionMapTask& task, const ParameterAxis& x, const ParameterAxis& y) {
-  const FeasibleRegion region = feasible_region(task.drive, x, y, task.target, task.cost);
+ContourMap map_of(const RegionMapTask& task, const ParameterAxis& x, const ParameterAxis& y,
+                  Progress& progress) {
+  const FeasibleRegion region = feasible_region(task.drive, x, y, task.target, task.cost, progress);
   const MapPoint unit{unit_of_axis(task, x.parameter), unit_of_axis(task, y.parameter)};
   const auto shown = [&](std::vector<MapCurve> curves) {
     for (MapCurve& curve : curves) {

@@ -19,7 +19,8 @@ struct RegionMapTask {
 };
 
 /// Lines of equal cost, the region's boundary in bold, hatching where the target is missed, and a
-/// mark at the present drive.
-ContourMap map_of(const RegionMapTask& task, const ParameterAxis& x, const ParameterAxis& y);
+/// mark at the present drive. Stopped by Progress, it has holes.
+ContourMap map_of(const RegionMapTask& task, const ParameterAxis& x, const ParameterAxis& y,
+                  Progress& progress = no_progress());
 
 }  // namespace gearlash

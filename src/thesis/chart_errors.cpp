@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/progress_part.hpp"
 #include "base/special_numbers.hpp"
 #include "thesis/exact_curve.hpp"
 #include "thesis/figures.hpp"
@@ -31,15 +32,16 @@ std::vector<NormalizedServo> charted_servos() {
 }
 
 std::vector<ChartError> chart_errors(
-    const std::function<SettledCycle(const ProgramParameters&)>& cycle_of, Progress& progress) {
+    const std::function<SettledCycle(const ProgramParameters&, Progress&)>& cycle_of,
+    Progress& progress) {
   const std::vector<NormalizedServo> servos = charted_servos();
   std::vector<ChartError> errors;
   for (const NormalizedServo& servo : servos) {
-    const SettledCycle cycle = cycle_of(program_parameters(servo));
+    ProgressPart part(progress, errors.size(), servos.size());
+    const SettledCycle cycle = cycle_of(program_parameters(servo), part);
+    if (!part.go_on(1.0)) break;  // the run may have been broken off
     errors.push_back({servo, cycle.hunts ? std::optional(cycle.amplitude) : std::nullopt,
                       exact_amplitude(servo)});
-    const double share = static_cast<double>(errors.size()) / static_cast<double>(servos.size());
-    if (!progress.go_on(share)) break;
   }
   return errors;
 }

@@ -29,9 +29,10 @@ struct ChartError {
   }
 };
 
-/// `cycle_of` runs the program for one servo.
+/// `cycle_of` runs the program for one servo. A servo at which Progress stops the work is left out,
+/// and those after it.
 std::vector<ChartError> chart_errors(
-    const std::function<SettledCycle(const ProgramParameters&)>& cycle_of,
+    const std::function<SettledCycle(const ProgramParameters&, Progress&)>& cycle_of,
     Progress& progress = no_progress());
 
 /// The errors in per cent as a map with a panel for each friction ratio.

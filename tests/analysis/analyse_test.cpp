@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/analyse.hpp"
+#include "analysis/contradictions.hpp"
 #include "analysis/pd_drive.hpp"
 #include "model/reduced_drive.hpp"
 
@@ -155,6 +156,66 @@ TEST(Analyse, IsNoVerdictOnStartsThatAreUndecided) {
   many.pop_back();
   many.front() = undecided;  // 2 of 19
   EXPECT_EQ(verdict(many), Verdict::undecided);
+}
+
+/// One start for each of these times, at rest at the reference.
+drive::AttractorSearch search_with_times(const std::vector<double>& times) {
+  drive::AttractorSearch search;
+  for (const double time : times) {
+    drive::Outcome& outcome = search.outcomes.emplace_back();
+    outcome.end = drive::MotionEnd::rest;
+    outcome.time_to_rest = time;
+  }
+  search.rest = drive::RestFound{};
+  return search;
+}
+
+TEST(Analyse, TakesTheMeanOfTheTwoMiddleTimesToRest) {
+  const drive::ReducedDrive drive = reduce(almost_undamped_motor(0.5));
+  const auto median = [&](const std::vector<double>& times) {
+    return answer_of(search_with_times(times), drive).rest->time->median;
+  };
+  EXPECT_EQ(median({8.0, 1.0, 2.0, 4.0}), 3.0);
+  EXPECT_EQ(median({8.0, 1.0, 2.0}), 2.0);
+  EXPECT_EQ(median({8.0}), 8.0);
+}
+
+/// By statics it rests at the reference, and leaning by ±0.1 rad at its limit of 2 N m, less
+/// `load_torque`/20 rad.
+drive::ReducedDrive inverted_load(double load_torque) {
+  drive::ReducedDrive drive;
+  drive.motor = {.inertia = 1.0, .friction = {.viscous = 1.0}};
+  drive.load = {.inertia = 1.0, .friction = {.viscous = 1.0}};
+  drive.backlash = 0.02;
+  drive.controller = drive::ProportionalDerivative{.proportional = 30.0, .derivative = 1.0};
+  drive.torque_limit = 2.0;
+  drive.gravity.stiffness = -20.0;
+  drive.load_torque = load_torque;
+  return drive;
+}
+
+Answer answer_of_rest_at(const RestPlace& place, const drive::ReducedDrive& drive) {
+  drive::AttractorSearch search = search_with_times({1.0});
+  search.outcomes.front().rest = place;
+  return answer_of(search, drive);
+}
+
+/// Without dry friction those equilibria count that starts approach.
+TEST(Analyse, CountsMirrorImagesOfRestOnlyWhereTheDriveIsItsOwn) {
+  const RestPlace place{.load = 0.1, .uncertainty = 1e-3};
+  EXPECT_EQ(answer_of_rest_at(place, inverted_load(0.0)).rest->pieces.size(), 2U);
+  const Answer pushed = answer_of_rest_at(place, inverted_load(0.001));
+  ASSERT_EQ(pushed.rest->pieces.size(), 1U);
+  EXPECT_EQ(pushed.rest->pieces[0].side, -1.0);
+  EXPECT_NEAR(pushed.rest->pieces[0].load.high, 0.1 - 0.001 / 20.0, 1e-9);
+  EXPECT_TRUE(contradictions(pushed).empty());
+}
+
+TEST(Analyse, KeepsTheEquilibriaThatNoStartApproaches) {
+  const Answer answer =
+      answer_of_rest_at({.load = 0.05, .uncertainty = 1e-3}, inverted_load(0.001));
+  EXPECT_EQ(answer.rest->pieces.size(), 3U);
+  EXPECT_EQ(contradictions(answer).size(), 1U);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // An answer is checked against itself before it is given.
 #include "analysis/contradictions.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace gearlash::contradictions_test {
@@ -55,6 +56,43 @@ TEST(Contradictions, AreEndsThatAreNotListed) {
     answer.search->starts = {start};
     EXPECT_EQ(contradictions(answer).size(), 1U) << start.end;
   }
+}
+
+/// Equilibria of two kinds, in neither of which the motor leaves the gap of 0.2 rad.
+Answer answer_with_rest_at(const RestPlace& place) {
+  Answer answer = sound_answer();
+  answer.rest->pieces = {{.load = {-0.5, 0.5}, .motor = {-0.6, 0.6}},
+                         {RestKind::torque_limit, 1.0, {1.4, 1.5}, {1.3, 1.6}}};
+  answer.search->starts[0].rest = place;
+  return answer;
+}
+
+TEST(Contradictions, AreNoneOfStartsThatRestInAPiece) {
+  for (const double load : {-0.5, 0.0, 0.5, 1.4, 1.5}) {
+    const RestPlace place{.load = load, .motor = load, .uncertainty = 0.0};
+    EXPECT_TRUE(contradictions(answer_with_rest_at(place)).empty()) << load;
+  }
+}
+
+TEST(Contradictions, AreStartsThatRestBesideAllPieces) {
+  for (const double load : {-0.501, 0.501, 1.0, 1.51}) {
+    const RestPlace place{.load = load, .motor = load, .uncertainty = 0.0009};
+    const std::vector<std::string> all = contradictions(answer_with_rest_at(place));
+    ASSERT_EQ(all.size(), 1U) << load;
+    EXPECT_THAT(all[0], testing::StartsWith("A start comes to rest with the load at "));
+  }
+  // The load in the one piece, the motor in the other.
+  const RestPlace mixed{.load = 0.5, .motor = 1.3, .uncertainty = 0.0};
+  EXPECT_EQ(contradictions(answer_with_rest_at(mixed)).size(), 1U);
+}
+
+TEST(Contradictions, AllowForWhatAnApproachStillLacks) {
+  EXPECT_TRUE(contradictions(answer_with_rest_at({.load = 0.55, .uncertainty = 0.05})).empty());
+  EXPECT_EQ(contradictions(answer_with_rest_at({.load = 0.55, .uncertainty = 0.04})).size(), 1U);
+  EXPECT_TRUE(contradictions(answer_with_rest_at({.load = 0.55})).empty());  // it creeps
+  Answer searched = answer_with_rest_at({.load = 0.55, .uncertainty = 0.0});
+  searched.rest->pieces.clear();
+  EXPECT_TRUE(contradictions(searched).empty());
 }
 
 TEST(Contradictions, WithdrawTheVerdict) {

@@ -64,6 +64,26 @@ TEST(StepResponse, SaysWhatDoesNotComeAbout) {
   EXPECT_THROW(step_response(drive, 1.0, 0.0), InvalidInput);
 }
 
+/// It stays in its band from 4 s on, and so would any part of the motion; only the whole shows it.
+TEST(StepResponse, IsThatOfTheMotionByThenWhereItIsStopped) {
+  class Impatient : public Progress {
+   public:
+    bool go_on(double /*share*/, std::size_t /*bytes*/) override { return ++asked < 3; }
+    int asked = 0;
+  };
+  Impatient impatient;
+  const ReducedDrive drive = second_order(0.5);
+  const StepResponse response = step_response(drive, 1.0, 1e6, impatient);
+  EXPECT_EQ(impatient.asked, 3);
+  EXPECT_FALSE(response.is_whole);
+  EXPECT_GT(response.until, 10.0);
+  EXPECT_LT(response.until, 1e5);
+  EXPECT_TRUE(response.rise_time);
+  EXPECT_FALSE(response.settling_time);
+  EXPECT_FALSE(response.overshoot);
+  EXPECT_TRUE(step_response(drive, 1.0, response.until).settling_time);
+}
+
 /// Wherever in its swing the motion is when it is no longer watched.
 TEST(StepResponse, WhatHuntsBeyondTheBandDoesNotSettle) {
   ReducedDrive drive;

@@ -164,23 +164,5 @@ TEST(StandsForLong, OfADriveWithoutStictionThatStandsByNow) {
   EXPECT_FALSE(stands(10'000.0));
 }
 
-/// A decay without events: its law alone does not show that no standstill follows.
-TEST(Fading, NeedsEvents) {
-  ReducedDrive drive;
-  drive.motor = {0.5, {.viscous = 3.0}};
-  drive.load = {0.5, {.viscous = 0.1}};
-  drive.backlash = 0.3;
-  drive.controller = ProportionalDerivative{1.0, 0.0};
-  const SearchSetting setting = search_setting(drive);
-  const double rate = 1.55 - std::sqrt(1.55 * 1.55 - 1.0);
-  Watch watch{.here = setting.start({0.01 + 0.15, -0.01 * rate, 0.01, -0.01 * rate})};
-  const Stretch stretch = follow(watch, 6.0, 1'000'000, 1000, setting, {});
-  ASSERT_TRUE(stretch.motion->events().empty());
-  EXPECT_FALSE(is_fading(watch, stretch, setting, {}));
-  RestTolerances without;
-  without.fading_events = 0;
-  EXPECT_TRUE(is_fading(watch, stretch, setting, without));
-}
-
 }  // namespace
 }  // namespace gearlash::drive::creeping_test

@@ -68,7 +68,7 @@ TEST(PropertyTimeToRest, IsThatOfTheMotion) {
         double last = 0.0;
         constexpr double step = 1e-3;
         for (double t = 0.0; t < until; t += step) {
-          const double off = setting.load.value.at(motion.at(t).numbers) - outcome.load;
+          const double off = setting.load.value.at(motion.at(t).numbers) - outcome.rest->load;
           if (std::abs(off) > found.band) last = t;
         }
         EXPECT_NEAR(time, last, 0.01 * last + 2.0 * step);

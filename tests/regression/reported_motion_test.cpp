@@ -11,6 +11,7 @@
 #include <sstream>
 #include <string>
 
+#include "analysis/describing/describing.hpp"
 #include "analysis/repetition.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/input.hpp"
@@ -82,7 +83,7 @@ TEST(ReportedMotion, OfTheDrivesPageIsDecidedInLittleTime) {
   EXPECT_NEAR(*motion.mean_amplitude / arcmin, 18.999, 1e-3);
   EXPECT_NEAR(*motion.mean_period, 4.1850, 5e-4);
   const std::string text = to_text(drive, answer);
-  EXPECT_THAT(text, StartsWith("hunts if disturbed: ±0.00553 rad (0.317°) at 0.239 Hz"));
+  EXPECT_THAT(text, StartsWith("hunts if disturbed: ±0.00556 rad (0.319°) at 0.239 Hz"));
   EXPECT_THAT(text, HasSubstr("runs away after steps from"));
   EXPECT_THAT(text, Not(HasSubstr("not seen to repeat")));
   // Of simulated time: a start that repeats, or joins a known motion, need not be watched on.
@@ -149,6 +150,27 @@ IrregularMotion motion_with(double mismatch, double spread, double encoder_steps
           .exponent = 1.17,
           .watched = 1000.0,
           .encoder_steps = encoder_steps};
+}
+
+/// Half the peak-to-peak, as of a cycle, whatever the swings are on average: report and describe
+/// had the mean of those that repeat, and targets and tables the extremes.
+TEST(ReportedMotion, HasOneAmplitudeInEveryVerb) {
+  Answer answer;
+  answer.verdict = Verdict::hunts;
+  answer.irregular = {motion_with(2e-11, 0.2, 50.0)};
+  EXPECT_EQ(answer.value(Quantity::amplitude), 1.1);
+  EXPECT_THAT(headline(Drive{}, answer), StartsWith("hunts: ±1.1 rad"));
+  ASSERT_EQ(drive::exact_motions(answer).size(), 1U);
+  EXPECT_EQ(drive::exact_motions(answer)[0].amplitude, 1.1);
+  AnswerReport report = report_of(Drive{}, answer);
+  report.measured = MeasuredHunting{.amplitude = 1.1, .frequency = 0.5};
+  EXPECT_THAT(answer_json(report), HasSubstr("\"amplitude_share\": 0.0"));
+}
+
+/// Small swings lie between its large ones: their mean is ±2.5e-4 rad.
+TEST(ReportedMotion, OfSeveralSwingsAPeriodHasThePeakToPeakForAmplitude) {
+  const Drive drive = drive_of("two-swings-of-one-load.toml");
+  EXPECT_THAT(headline(drive, analyse(drive)), HasSubstr("±0.000372 rad"));
 }
 
 /// A ramp makes it irregular: later starts join the motion of the first, and are not watched on.

@@ -164,18 +164,6 @@ double coulomb_of(const ReducedDrive& drive) {
   return drive.motor.friction.coulomb + drive.load.friction.coulomb;
 }
 
-bool is_dry(const ReducedDrive& drive) {
-  return drive.motor.friction.is_dry() || drive.load.friction.is_dry();
-}
-
-/// Whether a shaft's breakaway torque exceeds its Coulomb friction.
-bool has_stiction(const ReducedDrive& drive) {
-  const auto sticks = [](const ShaftFriction& friction) {
-    return friction.breakaway > friction.coulomb;
-  };
-  return sticks(drive.motor.friction) || sticks(drive.load.friction);
-}
-
 /// What is neglected so that the part stands alone.
 std::vector<Assumption> omissions(const ReducedDrive& drive, DescribedPart part,
                                   bool delay_is_rational) {
@@ -190,7 +178,7 @@ std::vector<Assumption> omissions(const ReducedDrive& drive, DescribedPart part,
   add(!is_gap, Assumption::gap_left_out);
   add(part != DescribedPart::torque_limit && std::isfinite(drive.torque_limit),
       Assumption::torque_limit_left_out);
-  add(!is_friction && is_dry(drive), Assumption::coulomb_left_out);
+  add(!is_friction && has_dry_friction(drive), Assumption::coulomb_left_out);
   add(is_friction && has_stiction(drive), Assumption::breakaway_left_out);
   const bool has_shape = drive.error_shape.is_present();
   add(has_shape && part != DescribedPart::dead_band && part != DescribedPart::relay,
@@ -477,7 +465,7 @@ std::vector<ExactMotion> exact_motions(const Answer& answer) {
                        cycle.stability == Stability::stable});
   }
   for (const IrregularMotion& motion : answer.irregular) {
-    motions.push_back({reported_amplitude(motion), motion.motor_amplitude.value_or(unknown),
+    motions.push_back({motion.amplitude, motion.motor_amplitude.value_or(unknown),
                        motion.mean_period.value_or(unknown), true});
   }
   return motions;

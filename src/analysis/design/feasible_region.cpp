@@ -4,6 +4,8 @@
 #include <functional>
 
 #include "base/on_threads.hpp"
+#include "base/progress_part.hpp"
+#include "base/shared_progress.hpp"
 
 namespace gearlash {
 namespace {
@@ -28,21 +30,25 @@ double cost_of(Cost cost, const Drivetrain& drive, const Drivetrain& present) {
 /// The values at every point of the two axes, x fastest.
 template <class Value>
 std::vector<Value> at_all_points(const ParameterAxis& x, const ParameterAxis& y,
-                                 const std::function<Value(const MapPoint&)>& value_at) {
+                                 const std::function<Value(const MapPoint&)>& value_at,
+                                 Progress& progress) {
   const std::size_t row = x.values.values.size();
   std::vector<Value> values(row * y.values.values.size());
+  SharedProgress shared(progress, values.size());
   on_threads(0, values.size(), [&](std::size_t i) {
+    if (shared.is_stopped()) return;
     values[i] = value_at({x.values.values[i % row], y.values.values[i / row]});
+    shared.finish(1);
   });
   return values;
 }
 
 std::vector<Contour> cost_lines(const ChangeableDrive& drive, const ParameterAxis& x,
-                                const ParameterAxis& y, Cost cost) {
+                                const ParameterAxis& y, Cost cost, Progress& progress) {
   const std::function<double(const MapPoint&)> cost_at = [&](const MapPoint& place) {
     return cost_of(cost, drive_at(drive, x, y, place), drive.drivetrain());
   };
-  const std::vector<double> costs = at_all_points(x, y, cost_at);
+  const std::vector<double> costs = at_all_points(x, y, cost_at, progress);
   std::vector<Contour> lines;
   for (const double level : round_levels(costs)) {
     const auto side_of = [level](double value) {
@@ -50,10 +56,9 @@ std::vector<Contour> cost_lines(const ChangeableDrive& drive, const ParameterAxi
     };
     std::vector<Side> corners;
     for (const double value : costs) corners.push_back(side_of(value));
+    const auto side_at = [&](const MapPoint& place) { return side_of(cost_at(place)); };
     lines.push_back(
-        {level, boundary_of_region(x.values, y.values, corners, [&](const MapPoint& place) {
-           return side_of(cost_at(place));
-         })});
+        {level, boundary_of_region(x.values, y.values, corners, side_at, {}, progress)});
   }
   return lines;
 }
@@ -102,14 +107,19 @@ Bounds range_to_draw(const ChangeableDrive& drive, std::string_view parameter) {
 }
 
 FeasibleRegion feasible_region(const ChangeableDrive& drive, const ParameterAxis& x,
-                               const ParameterAxis& y, const Target& target, Cost cost) {
+                               const ParameterAxis& y, const Target& target, Cost cost,
+                               Progress& progress) {
   const std::function<Side(const MapPoint&)> side = [&](const MapPoint& place) {
     return side_at(drive, x, y, place, target);
   };
+  ProgressPart of_points(progress, 0.0, 0.5);
+  ProgressPart of_boundary(progress, 0.5, 0.9);
+  ProgressPart of_lines(progress, 0.9, 1.0);
+  const std::vector<Side> corners = at_all_points(x, y, side, of_points);
   return {.x = x,
           .y = y,
-          .boundary = boundary_of_region(x.values, y.values, at_all_points(x, y, side), side),
-          .costs = cost_lines(drive, x, y, cost)};
+          .boundary = boundary_of_region(x.values, y.values, corners, side, {}, of_boundary),
+          .costs = cost_lines(drive, x, y, cost, of_lines)};
 }
 
 Side side_of_target(const ChangeableDrive& drive, const FeasibleRegion& region,

@@ -45,9 +45,11 @@ struct FeasibleRegion {
 };
 
 /// Regions narrower than a cell of the axes' values can be missed, as with boundary_of_region().
+/// Stopped by Progress, it has holes.
 /// Precondition: two different parameters, and faults(target) is empty.
 FeasibleRegion feasible_region(const ChangeableDrive& drive, const ParameterAxis& x,
-                               const ParameterAxis& y, const Target& target, Cost cost);
+                               const ParameterAxis& y, const Target& target, Cost cost,
+                               Progress& progress = no_progress());
 
 /// Whether the target is met at a place; unknown where there is no valid drive.
 Side side_of_target(const ChangeableDrive& drive, const FeasibleRegion& region,

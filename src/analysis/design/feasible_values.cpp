@@ -154,7 +154,9 @@ class Search {
     // Growth at rest is cheap; between these values it passes 1 or a limit.
     const std::vector<double> looked_at = spread_over(range, fine, evenly);
     std::vector<double> growths(looked_at.size());
-    on_threads(0, looked_at.size(), [&](std::size_t i) { growths[i] = growth_at(looked_at[i]); });
+    on_threads(0, looked_at.size(), [&](std::size_t i) {
+      if (shared_.go_on(0.0)) growths[i] = growth_at(looked_at[i]);
+    });
     const auto differ = [&](double a, double b) {
       return (a > 1.0) != (b > 1.0) || is_ruled_out(target_, a) != is_ruled_out(target_, b);
     };

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "analysis/grid/axis.hpp"
+#include "base/progress_part.hpp"
 #include "base/range_check.hpp"
 #include "general/attractors/cycle_slopes.hpp"
 
@@ -78,7 +79,7 @@ std::optional<double> slope_of(Quantity quantity, const drive::CycleSlopes& slop
 
 Jacobian searched_derivatives(const Drive& drive, const Analysis& analysis,
                               std::span<const Quantity> quantities,
-                              const std::vector<std::string>& paths) {
+                              const std::vector<std::string>& paths, Progress& progress) {
   Jacobian jacobian{.quantities = {quantities.begin(), quantities.end()},
                     .paths = paths,
                     .values = {},
@@ -98,6 +99,7 @@ Jacobian searched_derivatives(const Drive& drive, const Analysis& analysis,
   jacobian.reason = obstacle_to_slopes(setting, *cycle);
   if (!jacobian.reason.empty()) return jacobian;
   for (std::size_t j = 0; j < paths.size(); ++j) {
+    if (!progress.go_on(static_cast<double>(j) / static_cast<double>(paths.size()))) break;
     const auto slopes = slopes_by(drive, paths[j], jacobian.present[j], setting, *cycle);
     if (!slopes) continue;
     for (std::size_t i = 0; i < quantities.size(); ++i) {
@@ -110,17 +112,19 @@ Jacobian searched_derivatives(const Drive& drive, const Analysis& analysis,
 Jacobian searched_derivatives(const Drive& drive, std::span<const Quantity> quantities,
                               const std::vector<std::string>& paths, Progress& progress) {
   presents_of(drive, paths);  // before the search
-  return searched_derivatives(drive, analyse_in_full(drive, {}, progress), quantities, paths);
+  ProgressPart search(progress, 0.0, 0.5);
+  ProgressPart rest(progress, 0.5, 1.0);
+  return searched_derivatives(drive, analyse_in_full(drive, {}, search), quantities, paths, rest);
 }
 
-Jacobian searched_derivatives(const Drive& drive, const Analysis& analysis) {
+Jacobian searched_derivatives(const Drive& drive, const Analysis& analysis, Progress& progress) {
   std::vector<std::string> paths;
   for (const Parameter& parameter : all_parameters_of_drives()) {
     if (!exists(parameter, drive) || !parameter.choices.empty()) continue;
     const std::optional<double> present = number_in(parameter, drive);
     if (present && *present != 0.0) paths.emplace_back(parameter.path);
   }
-  return searched_derivatives(drive, analysis, differentiable_by_search, paths);
+  return searched_derivatives(drive, analysis, differentiable_by_search, paths, progress);
 }
 
 }  // namespace gearlash

@@ -6,6 +6,7 @@
 #include "analysis/design/replicates.hpp"
 #include "analysis/design/sampling.hpp"
 #include "analysis/design/tolerance_study.hpp"
+#include "base/progress_part.hpp"
 #include "base/range_check.hpp"
 
 namespace gearlash {
@@ -110,8 +111,10 @@ BlockSums sums_of(const detail::DrawnResults& results, std::size_t numbers,
 }
 
 /// A constant near the mean amplitude; subtracting it avoids cancellation in a small variance.
-double amplitude_of_mean_drive(const TolerancedDrive& drive, const detail::DrawnAnswers& answers) {
-  const double size = answers.of(1, means_of(drive), no_progress())[0].amplitude;
+double amplitude_of_mean_drive(const TolerancedDrive& drive, const detail::DrawnAnswers& answers,
+                               Progress& progress) {
+  ProgressPart at_start(progress, 0.0, 0.0);
+  const double size = answers.of(1, means_of(drive), at_start)[0].amplitude;
   return std::isfinite(size) ? size : 0.0;
 }
 
@@ -199,7 +202,7 @@ SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const SampleP
   // A quarter of the usual number, because each point needs numbers + 2 drives and each block a set
   // of sums.
   const std::size_t at_a_time = std::max<std::size_t>(answers.at_a_time() / 4, 1);
-  const double usual_amplitude = amplitude_of_mean_drive(drive, answers);
+  const double usual_amplitude = amplitude_of_mean_drive(drive, answers, progress);
   const std::size_t of_replicate = (sampling.points + at_a_time - 1) / at_a_time;
   std::vector<BlockSums> blocks(of_replicate * sampling.replicates, {Sums(numbers), Sums(numbers)});
   const auto work = [&](std::size_t block, std::size_t /*one*/, Progress& of_block) {

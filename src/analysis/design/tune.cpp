@@ -146,19 +146,19 @@ class Units {
     }
     judged.reached = task_.aim == Aim::static_error
                          ? judged.answer.value(Quantity::static_error).value_or(not_a_number)
-                         : reached_without_search(unit, tuned, loop);
+                         : reached_without_search(unit, tuned, loop, progress);
     return judged;
   }
 
   bool needs_search() const { return task_.aim == Aim::static_error; }
   /// Precondition: not needs_search().
-  double reached_without_search(std::size_t unit, const Values& tuned,
-                                const JudgedLoop& loop) const {
+  double reached_without_search(std::size_t unit, const Values& tuned, const JudgedLoop& loop,
+                                Progress& progress) const {
     if (task_.aim == Aim::bandwidth) return loop.bandwidth;
     Answer answer;
     Wanted wanted;
     ask_for(Quantity::settling_time, task_.series.nominal, wanted);
-    add_figures(reduce_settled(drive(unit, tuned)), wanted, answer);
+    add_figures(reduce_settled(drive(unit, tuned)), wanted, answer, progress);
     return answer.value(Quantity::settling_time).value_or(not_a_number);
   }
 
@@ -294,7 +294,7 @@ class Tuning {
       const JudgedLoop loop = units_.loop(unit, tuned);
       most_lacking = std::max(most_lacking, loop.lacks);
       if (most_lacking > 0.0 || units_.needs_search()) continue;
-      reached.push_back(units_.reached_without_search(unit, tuned, loop));
+      reached.push_back(units_.reached_without_search(unit, tuned, loop, progress));
     }
     if (most_lacking > 0.0) return missed + most_lacking;
     if (!units_.needs_search() && size_of(reached) >= least_permitted_) return size_of(reached);

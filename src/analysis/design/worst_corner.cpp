@@ -66,15 +66,32 @@ struct Candidate {
   Badness badness;
 };
 
+/// The share of a searched drive's work is that of its searches; in closed form that of the climbs.
+class ClimbProgress : public Progress {
+ public:
+  ClimbProgress(Progress& whole, const detail::DrawnAnswers& answers)
+      : whole_(whole), is_by_climbs_(!answers.are_one_by_one()) {}
+
+  bool go_on(double share, std::size_t bytes = 0) override {
+    return whole_.go_on(is_by_climbs_ ? climbs : share, bytes);
+  }
+
+  double climbs = 0.0;  ///< the share that is done
+
+ private:
+  Progress& whole_;
+  bool is_by_climbs_;
+};
+
 class Climb {
  public:
   Climb(const TolerancedDrive& drive, const WorstSearch& search, const Workers& workers,
         Progress& progress)
       : search_(search),
         workers_(workers),
-        progress_(progress),
         answers_(drive, no_target_, search.amplitude, workers.unit),
-        shared_(progress, search.samples + most_corners) {
+        progress_(progress, answers_),
+        shared_(progress_, search.samples + most_corners) {
     for (const ParameterTolerance& varied : drive.varied) {
       coordinates_.push_back(coordinate_of(varied.distribution, answers_.are_one_by_one()));
     }
@@ -85,9 +102,7 @@ class Climb {
     for (Candidate& sample : worst_of(samples())) starts.push_back(std::move(sample));
     Candidate worst = starts.front();
     for (std::size_t i = 0; i < starts.size(); ++i) {
-      if (!answers_.are_one_by_one()) {
-        progress_.go_on(static_cast<double>(i) / static_cast<double>(starts.size()));
-      }
+      progress_.climbs = static_cast<double>(i) / static_cast<double>(starts.size());
       Candidate top = climbed(starts[i]);
       if (worst.badness < top.badness) worst = std::move(top);
     }
@@ -148,6 +163,7 @@ class Climb {
     const std::size_t at_a_time = answers_.at_a_time();
     std::vector<Badness> badness(all.size());
     const auto work = [&](std::size_t block) {
+      if (is_stopped()) return;
       const std::size_t first = block * at_a_time;
       const std::size_t count = std::min(at_a_time, all.size() - first);
       Values values;
@@ -155,7 +171,7 @@ class Climb {
         values.insert(values.end(), all[i].begin(), all[i].end());
       }
       const detail::DrawnResults results = answers_.of(count, values, shared_);
-      if (answers_.are_one_by_one()) shared_.finish(count);
+      shared_.finish(answers_.are_one_by_one() ? count : 0);
       for (std::size_t row = 0; row < count; ++row) badness[first + row] = badness_of(results[row]);
     };
     const std::size_t blocks = (all.size() + at_a_time - 1) / at_a_time;
@@ -186,6 +202,7 @@ class Climb {
     for (int round = 0; round < most_rounds; ++round) {
       const Candidate before = top;
       for (std::size_t i = 0; i < coordinates_.size(); ++i) {
+        if (is_stopped()) return top;
         if (!coordinates_[i].choices.empty()) {
           try_choices(top, i);
         } else {
@@ -311,8 +328,8 @@ class Climb {
   const Target no_target_{};
   const WorstSearch& search_;
   const Workers& workers_;
-  Progress& progress_;
   detail::DrawnAnswers answers_;
+  ClimbProgress progress_;
   SharedProgress shared_;
   std::vector<Coordinate> coordinates_;
 };

@@ -37,7 +37,7 @@ struct WorstNumber {
 struct WorstCorner {
   std::vector<WorstNumber> numbers;  ///< in the order of drive.varied
   Performance performance;
-  bool stopped = false;  ///< by Progress, of a searched drive: then nothing holds
+  bool stopped = false;  ///< by Progress: then nothing holds
 };
 
 /// The drive with the largest amplitude (infinite where a drive grows without bound) in the box of
@@ -48,8 +48,7 @@ struct WorstCorner {
 /// length within the box and refined about its worst point, until the value rises by less than a
 /// relative 1e-12. Of lots only their values are tried. There is no proof that none is worse: a
 /// narrow peak inside can be missed. The result is the same to the bit for any number of threads.
-/// `progress` receives the share of the climbs (2·starts at most) that is done; its wish to stop is
-/// ignored.
+/// `progress` receives the share of the climbs (2·starts at most) that is done.
 ///
 /// Of a drive that is searched only the ends of each range are tried: all corners up to 64 of them,
 /// or Sobol's choice of corners, then one parameter after another. Throws InvalidInput.

@@ -40,8 +40,8 @@ bool is_absent_by_energy(const ReducedDrive& drive) {
   // The mesh torque over the gap's speed has a pole at 0, whose residue must not be negative.
   const Interval residue = weight * (1.0 - of_position) * loop.position[0];
   if (is_weighed && residue.low < 0.0) return false;
-  const bool is_dry = drive.motor.friction.is_dry() || drive.load.friction.is_dry();
-  if (!is_dry) {  // Re of the mesh torque over the gap's speed, load·motor/(s·closed)
+  if (!has_dry_friction(drive)) {
+    // Re of the mesh torque over the gap's speed, load·motor/(s·closed)
     return is_weighed
                ? has_positive_real_part(product(loop.load, loop.motor), product(s, loop.closed))
                : has_positive_real_part(product(momentum_and_friction(drive.load), loop.motor),

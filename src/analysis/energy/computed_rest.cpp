@@ -425,4 +425,15 @@ std::vector<RestPiece> computed_rest(const ReducedDrive& drive) {
   return pieces;
 }
 
+bool may_hold(const RestPiece& piece, const RestPlace& place) {
+  if (!place.uncertainty) return true;
+  constexpr double rounding = 1e-9;
+  const auto reaches = [&](const Bounds& bounds, double position) {
+    const double near =
+        *place.uncertainty + rounding * std::max(std::abs(bounds.low), std::abs(bounds.high));
+    return bounds.low - near <= position && position <= bounds.high + near;
+  };
+  return reaches(piece.load, place.load) && (!place.motor || reaches(piece.motor, *place.motor));
+}
+
 }  // namespace gearlash

@@ -21,4 +21,8 @@ namespace gearlash {
 /// feed-forward, which acts by where the reference came from.
 std::vector<RestPiece> computed_rest(const drive::ReducedDrive& drive);
 
+/// Whether a place of rest is among these equilibria, to its uncertainty and their rounding, 1e-9
+/// of their ends. A place whose uncertainty is not known may be.
+bool may_hold(const RestPiece& piece, const RestPlace& place);
+
 }  // namespace gearlash

@@ -95,8 +95,8 @@ bool is_covered_unless_it_rests_with_torque(const ReducedDrive& drive) {
   const auto* load_torque = std::get_if<double>(&drive.load_torque);
   return drive::has_linear_control(drive) &&
          std::holds_alternative<drive::RigidContact>(drive.contact) && !drive.sampling &&
-         drive.sensing.resolution == 0.0 && !drive.motor.friction.is_dry() &&
-         !drive.load.friction.is_dry() && load_torque != nullptr && *load_torque == 0.0 &&
+         drive.sensing.resolution == 0.0 && !drive::has_dry_friction(drive) &&
+         load_torque != nullptr && *load_torque == 0.0 &&
          std::holds_alternative<double>(drive.reference) &&
          drive::linear_controller(drive.controller).order() <= highest_order_of_polynomials;
 }

@@ -22,7 +22,7 @@ class Plane {
         known_(known),
         plane_(plane),
         basins_(basins),
-        is_mirrored_(drive::is_mirrored(drive) && drive::reads_mirrored(drive)) {}
+        is_mirrored_(drive::is_own_image(drive)) {}
 
   void watch_points(SharedProgress& progress) {
     const std::size_t columns = basins_.positions.values.size();

@@ -33,9 +33,9 @@ class FigureColumns {
 
   bool are_none() const { return quantities_.empty(); }
 
-  void write(std::size_t row, const Drive& drive) const {
+  void write(std::size_t row, const Drive& drive, Progress& progress) const {
     Answer answer;
-    if (faults(drive).empty()) add_figures(reduce_settled(drive), wanted_, answer);
+    if (faults(drive).empty()) add_figures(reduce_settled(drive), wanted_, answer, progress);
     for (const Quantity quantity : quantities_) {
       columns_[quantity][row] = answer.value(quantity).value_or(not_a_number);
     }
@@ -190,7 +190,7 @@ class GridPart {
     for (std::size_t row = 0; !figures.are_none() && row < servos_.size(); ++row) {
       count.stopped = !progress.go_on(0.0);
       if (count.stopped) break;
-      figures.write(row, points_.drive_at(walk_again.values()));
+      figures.write(row, points_.drive_at(walk_again.values()), progress);
       walk_again.go_on();
     }
     count.searched = found_;
@@ -319,7 +319,7 @@ PointAnswer answer_at(const GridPoints& points, std::span<const double> place, Q
     write(columns, 0, analyse(drive, {.proofs = false, .borders = false}, progress));
   }
   const FigureColumns figures(columns, points.drive());
-  if (!figures.are_none()) figures.write(0, points.drive_at(place));
+  if (!figures.are_none()) figures.write(0, points.drive_at(place), progress);
   return answer;
 }
 

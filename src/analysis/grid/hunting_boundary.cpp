@@ -30,7 +30,7 @@ Side side_of_dissipation(const std::optional<NormalizedServo>& servo) {
   return is_dissipative(*servo) ? Side::outside : Side::inside;
 }
 
-std::vector<MapCurve> dissipative_boundary(const Grid& grid) {
+std::vector<MapCurve> dissipative_boundary(const Grid& grid, Progress& progress) {
   const GridPoints points(grid);
   const auto side = [&](const MapPoint& place) {
     return side_of_dissipation(servo_at(points, place));
@@ -40,17 +40,17 @@ std::vector<MapCurve> dissipative_boundary(const Grid& grid) {
   for (const double y : grid.axes[0].values) {
     for (const double x : grid.axes[1].values) corners.push_back(side({x, y}));
   }
-  return boundary_of_region(grid.axes[1], grid.axes[0], corners, side);
+  return boundary_of_region(grid.axes[1], grid.axes[0], corners, side, {}, progress);
 }
 
-std::vector<MapCurve> hunting_boundary(const Grid& grid, std::span<const double> growth_at_rest) {
+std::vector<MapCurve> hunting_boundary(const Grid& grid, std::span<const double> growth_at_rest,
+                                       Progress& progress) {
   const GridPoints points(grid);
   std::vector<Side> corners;
   corners.reserve(growth_at_rest.size());
   for (const double growth : growth_at_rest) corners.push_back(side_of(growth));
-  return boundary_of_region(grid.axes[1], grid.axes[0], corners, [&](const MapPoint& place) {
-    return side_of_hunting(servo_at(points, place));
-  });
+  const auto side = [&](const MapPoint& place) { return side_of_hunting(servo_at(points, place)); };
+  return boundary_of_region(grid.axes[1], grid.axes[0], corners, side, {}, progress);
 }
 
 }  // namespace gearlash

@@ -24,11 +24,12 @@ Side side_of_hunting(const std::optional<NormalizedServo>& servo);
 /// bounces changes, and a limit cycle may exist beside a stable rest. `growth_at_rest` belongs to
 /// the grid's points, as evaluate() gives it. There are no curves where an axis has fewer than two
 /// values or an infinite one. Precondition: two axes, y and x.
-std::vector<MapCurve> hunting_boundary(const Grid& grid, std::span<const double> growth_at_rest);
+std::vector<MapCurve> hunting_boundary(const Grid& grid, std::span<const double> growth_at_rest,
+                                       Progress& progress = no_progress());
 
 /// The curves around servos that cannot hunt with any restitution (is_dissipative()), which lie on
 /// their right. The growth at rest on the curves is at most 1. Precondition: two axes, y and x.
-std::vector<MapCurve> dissipative_boundary(const Grid& grid);
+std::vector<MapCurve> dissipative_boundary(const Grid& grid, Progress& progress = no_progress());
 /// Outside where no restitution can make the servo hunt, inside elsewhere; unknown without a servo.
 Side side_of_dissipation(const std::optional<NormalizedServo>& servo);
 

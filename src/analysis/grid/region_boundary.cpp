@@ -8,6 +8,7 @@
 
 #include "analysis/grid/side_bisection.hpp"
 #include "base/on_threads.hpp"
+#include "base/shared_progress.hpp"
 
 namespace gearlash {
 namespace {
@@ -38,8 +39,13 @@ bool is_drawable(const Axis& axis) {
 class BoundaryFinder {
  public:
   BoundaryFinder(const Axis& x, const Axis& y, std::span<const Side> corners, const SideAt& side_at,
-                 const CurveAccuracy& accuracy)
-      : x_(x), y_(y), corners_(corners), side_at_(side_at), accuracy_(accuracy) {}
+                 const CurveAccuracy& accuracy, Progress& progress)
+      : x_(x),
+        y_(y),
+        corners_(corners),
+        side_at_(side_at),
+        accuracy_(accuracy),
+        progress_(progress, 1) {}
 
   std::vector<MapCurve> curves() {
     find_crossings();
@@ -57,6 +63,10 @@ class BoundaryFinder {
     return 2 * (row * x_.values.size() + column);
   }
   EdgeId along_y(std::size_t column, std::size_t row) const { return along_x(column, row) + 1; }
+
+  Side asked(const MapPoint& place) const {
+    return progress_.go_on(0.0) ? side_at_(place) : Side::unknown;
+  }
 
   void find_crossings();
   void cross_cell(std::size_t column, std::size_t row);
@@ -79,8 +89,8 @@ class BoundaryFinder {
   /// turns out to be unknown.
   template <class At>
   std::optional<double> between(const At& at, double inside, double outside) const {
-    const SideChange change = bisect_sides([&](double place) { return side_at_(at(place)); },
-                                           inside, outside, accuracy_.halvings);
+    const SideChange change = bisect_sides([&](double place) { return asked(at(place)); }, inside,
+                                           outside, accuracy_.halvings);
     if (change.beyond == Side::unknown) return std::nullopt;
     return change.place;
   }
@@ -90,6 +100,7 @@ class BoundaryFinder {
   std::span<const Side> corners_;
   const SideAt& side_at_;
   CurveAccuracy accuracy_;
+  mutable SharedProgress progress_;
   std::vector<Crossing> crossings_;
   std::unordered_map<EdgeId, MapPoint> points_;
 };
@@ -128,7 +139,7 @@ void BoundaryFinder::cross_cell(std::size_t column, std::size_t row) {
 Side BoundaryFinder::middle_of_cell(std::size_t column, std::size_t row) const {
   const Place low = place_of({x_.values[column], y_.values[row]});
   const Place high = place_of({x_.values[column + 1], y_.values[row + 1]});
-  return side_at_(point_at({0.5 * (low.along + high.along), 0.5 * (low.up + high.up)}));
+  return asked(point_at({0.5 * (low.along + high.along), 0.5 * (low.up + high.up)}));
 }
 
 void BoundaryFinder::locate_edges() {
@@ -228,7 +239,7 @@ void BoundaryFinder::divide(const Place& from, const Place& to, MapCurve& points
 /// away. The region is on the left of the chord.
 std::optional<Place> BoundaryFinder::across_middle(const Place& from, const Place& to) const {
   const Place middle{0.5 * (from.along + to.along), 0.5 * (from.up + to.up)};
-  const Side side = side_at_(point_at(middle));
+  const Side side = asked(point_at(middle));
   if (side == Side::unknown) return std::nullopt;
   const double turn = side == Side::inside ? 1.0 : -1.0;  // to the right, or to the left
   const auto at = [&](double share) {
@@ -237,7 +248,7 @@ std::optional<Place> BoundaryFinder::across_middle(const Place& from, const Plac
   };
   double near = 0.0;
   for (const double far : {1.0 / 64.0, 1.0 / 16.0, 1.0 / 4.0, 1.0 / 2.0}) {
-    const Side there = side_at_(point_at(at(far)));
+    const Side there = asked(point_at(at(far)));
     if (there == Side::unknown) return std::nullopt;
     if (there == side) {
       near = far;
@@ -256,9 +267,9 @@ std::optional<Place> BoundaryFinder::across_middle(const Place& from, const Plac
 
 std::vector<MapCurve> boundary_of_region(const Axis& x, const Axis& y,
                                          std::span<const Side> corners, const SideAt& side_at,
-                                         const CurveAccuracy& accuracy) {
+                                         const CurveAccuracy& accuracy, Progress& progress) {
   if (!is_drawable(x) || !is_drawable(y)) return {};
-  return BoundaryFinder(x, y, corners, side_at, accuracy).curves();
+  return BoundaryFinder(x, y, corners, side_at, accuracy, progress).curves();
 }
 
 }  // namespace gearlash

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/grid/axis.hpp"
+#include "gearlash/progress.hpp"
 
 namespace gearlash {
 
@@ -40,10 +41,12 @@ struct CurveAccuracy {
 /// is divided, at a place found by bisection across it, until it is straight enough. So a coarse
 /// grid gives a smooth curve whose every point is on the boundary, on the inside; features smaller
 /// than a cell are missed. A curve ends at the edge of the plane or next to unknown places. The
-/// result is the same for any number of threads; `side_at` is called from several at once.
+/// result is the same for any number of threads; `side_at` is called from several at once. Progress
+/// hears of the work that it goes on, and where it stops it all further places are unknown.
 std::vector<MapCurve> boundary_of_region(const Axis& x, const Axis& y,
                                          std::span<const Side> corners,
                                          const std::function<Side(const MapPoint&)>& side_at,
-                                         const CurveAccuracy& accuracy = {});
+                                         const CurveAccuracy& accuracy = {},
+                                         Progress& progress = no_progress());
 
 }  // namespace gearlash

@@ -171,8 +171,7 @@ class Search {
                     .time_to_rest = verdict.time_to_rest};
     if (verdict.end == MotionEnd::rest) {
       record_rest(verdict);
-      outcome.load = verdict.rest.back().load;
-      outcome.motor = verdict.rest.back().motor;
+      outcome.rest = rest_place(verdict);
     }
     if (verdict.end == MotionEnd::cycle) ++result_.cycles[verdict.which].starts;
     if (verdict.end == MotionEnd::irregular) {
@@ -181,6 +180,14 @@ class Search {
       ++result_.irregular[outcome.which].starts;
     }
     result_.outcomes.push_back(std::move(outcome));
+  }
+
+  static RestPlace rest_place(const Verdict& verdict) {
+    if (const auto& approach = verdict.approach) {
+      return {.load = approach->final, .uncertainty = approach->size};
+    }
+    const Standstill& last = verdict.rest.back();
+    return {.load = last.load, .motor = last.motor, .uncertainty = verdict.uncertainty};
   }
 
   void record_rest(const Verdict& verdict) {

@@ -99,8 +99,7 @@ struct Outcome {
   std::size_t which = 0;               ///< index into the cycles, or into the irregular motions
   double watched = 0.0;                ///< s
   std::string reason;                  ///< why it is undecided
-  double load = 0.0;                   ///< rad, from the reference, where it rests
-  double motor = 0.0;                  ///< rad, likewise
+  std::optional<RestPlace> rest;       ///< if it rests
   std::optional<double> time_to_rest;  ///< s, if it rests; see AttractorOptions::band
 };
 

@@ -1,7 +1,6 @@
 #include "general/attractors/creeping.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "general/attractors/found_cycle.hpp"
@@ -36,7 +35,7 @@ std::vector<Pause> pauses(const std::vector<Sample>& samples, double small) {
 /// Whether dry friction without stiction holds a shaft. With stiction slips have a size of their
 /// own.
 bool has_coulomb_friction_alone(const ReducedDrive& drive) {
-  return !has_stiction(drive) && (drive.motor.friction.is_dry() || drive.load.friction.is_dry());
+  return has_dry_friction(drive) && !has_stiction(drive);
 }
 
 /// Whether friction of a drive without stiction holds it at the end of its watch.
@@ -112,39 +111,6 @@ std::optional<ShrinkingSteps> creeping(const Watch& watch, const SearchSetting& 
                         .ratio = third.value / second.value,
                         .duration = third.duration(),
                         .duration_ratio = third.duration() / second.duration()};
-}
-
-bool is_fading(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
-               const RestTolerances& tolerances) {
-  const double third = (stretch.to - stretch.from) / 3.0;
-  const std::vector<hybrid::Event>& events = stretch.motion->events();
-  const auto lately =
-      std::count_if(events.rbegin(), events.rend(),
-                    [&](const hybrid::Event& event) { return event.time > stretch.to - third; });
-  if (static_cast<std::size_t>(lately) < tolerances.fading_events) return false;
-  std::array<std::vector<Extent>, 3> thirds;
-  for (std::size_t i = 0; i < thirds.size(); ++i) {
-    const double from = stretch.from + static_cast<double>(i) * third;
-    thirds[i] = extents(*stretch.motion, from, from + third);
-  }
-  const double small = tolerances.small_motion * setting.small_length;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(setting.own); ++i) {
-    const double first = thirds[0][i].width();
-    const double second = thirds[1][i].width();
-    const double last = thirds[2][i].width();
-    if (first <= tolerances.still * watch.all[i].width()) continue;
-    if (!(second < first && last < second)) return false;
-    if (i == motor_speed || i == load_speed) continue;  // known at the events alone
-    const double limit = limit_of(first, second, last);
-    if (!(last < tolerances.fading * first) ||
-        !(std::abs(limit) < tolerances.vanishing_limit * last)) {
-      return false;
-    }
-    const bool is_position = i == motor_position || i == load_position;
-    if (is_position && last * setting.frame.scale[static_cast<Eigen::Index>(i)] > small)
-      return false;
-  }
-  return true;
 }
 
 bool stands_for_long(const std::vector<Standstill>& all, const Watch& watch,

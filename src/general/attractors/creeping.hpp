@@ -37,13 +37,6 @@ double duration_of(const std::vector<Standstill>& all);
 std::optional<ShrinkingSteps> creeping(const Watch& watch, const SearchSetting& setting,
                                        const RestTolerances& tolerances);
 
-/// Whether small motion with many events fades: the ranges of all numbers shrink from each third of
-/// a stretch to the next, and those of all but the speeds by one ratio, to nothing. So does a shaft
-/// that slides to the reference and sticks and slips a hundred times a second. (Motion that comes
-/// to a standstill has no events in the last third, and integrals that go on.) It must be kept.
-bool is_fading(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
-               const RestTolerances& tolerances);
-
 /// Whether a drive with dry friction and no stiction has at last stood for many times as long as it
 /// ever moved.
 bool stands_for_long(const std::vector<Standstill>& all, const Watch& watch,

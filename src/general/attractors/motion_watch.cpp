@@ -341,16 +341,6 @@ bool moves_along(const Watch& watch, const Stretch& stretch, const SearchSetting
 
 namespace {
 
-bool has_stiction(const Shaft& shaft) { return shaft.friction.breakaway > shaft.friction.coulomb; }
-
-}  // namespace
-
-bool has_stiction(const ReducedDrive& drive) {
-  return has_stiction(drive.motor) || has_stiction(drive.load);
-}
-
-namespace {
-
 /// rad: a load beyond it has run away.
 double far_away(const SearchSetting& setting, const SearchTolerances& tolerances) {
   const double far = tolerances.far_away * setting.large_length;
@@ -400,7 +390,7 @@ void add_rest(RestFound& rest, double load, double motor, const SearchSetting& s
   const auto place = [&](double value) {
     return std::abs(value) > tolerances.no_move * setting.small_length ? value : 0.0;
   };
-  const bool has_image = is_mirrored(setting.drive) && reads_mirrored(setting.drive);
+  const bool has_image = is_own_image(setting.drive);
   for (const double way : {1.0, -1.0}) {
     if (way < 0.0 && !has_image) break;
     rest.load.include(way * place(load) + 0.0);  // no −0
@@ -505,8 +495,7 @@ bool has_no_small_size(const ReducedDrive& drive) {
   const auto* torque = std::get_if<double>(&drive.load_torque);
   const bool is_pushed = torque == nullptr || *torque != 0.0;
   const bool is_read = drive.sensing.resolution > 0.0 || drive.sensing.resolution_of_speed > 0.0;
-  return !drive.motor.friction.is_dry() && !drive.load.friction.is_dry() && !is_read &&
-         !drive.error_shape.is_present() && !is_pushed &&
+  return !has_dry_friction(drive) && !is_read && !drive.error_shape.is_present() && !is_pushed &&
          std::holds_alternative<double>(drive.reference);
 }
 

@@ -88,9 +88,6 @@ bool is_at_rest(const Watch& watch, const Stretch& stretch, const SearchSetting&
 bool moves_along(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
                  const RestTolerances& tolerances);
 
-/// Whether friction at rest is higher than that of motion, on either shaft.
-bool has_stiction(const ReducedDrive& drive);
-
 /// Whether the load is far beyond all lengths of the drive, those of a torque limit however many
 /// backlashes they are; or swings that grow are, each by no less than the one before. Swings of a
 /// limited torque against viscous friction must also be beyond SearchSetting::braked_length, below

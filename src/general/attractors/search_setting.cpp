@@ -182,6 +182,8 @@ bool reads_mirrored(const ReducedDrive& drive) {
          !is_between_steps(drive.sensing.resolution_of_speed);
 }
 
+bool is_own_image(const ReducedDrive& drive) { return is_mirrored(drive) && reads_mirrored(drive); }
+
 hybrid::State SearchSetting::start(const ShaftStates& shafts) const {
   hybrid::State state = drive_start(drive, built, shafts);
   state.numbers = frame.inside(state.numbers, 0.0);

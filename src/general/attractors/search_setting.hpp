@@ -52,6 +52,8 @@ bool is_mirrored(const ReducedDrive& drive);
 /// Whether its encoders read the mirror image of a position about the reference as the mirror image
 /// of what they read of the position.
 bool reads_mirrored(const ReducedDrive& drive);
+/// Both.
+bool is_own_image(const ReducedDrive& drive);
 
 /// Neighbours in the list are neighbouring starts.
 std::vector<ShaftStates> usual_starts(const SearchSetting& setting,

@@ -30,10 +30,9 @@ struct RestTolerances {
   /// logarithms below 0 by this many standard errors.
   std::size_t scattering_swings = 12;
   double scattering_errors = 3.0;
-  /// Motion fades if its ranges shrink below this share within a stretch, with this many events in
-  /// the last third.
+  /// Rounds of events that shrink, after half of them to this share, fade to rest; their limit is
+  /// known to `vanishing_limit` of what is left.
   double fading = 0.5;
-  std::size_t fading_events = 8;
   /// A drive without stiction rests on a cycle if it moves, by more than this share of the cycle's
   /// extent, for no more than this share of its period.
   double hardly_moving = 1e-4;

@@ -10,6 +10,7 @@
 #include "general/attractors/motion_measures.hpp"
 #include "general/attractors/time_to_rest.hpp"
 #include "hybrid/limit_in_mode.hpp"
+#include "hybrid/shrinking_rounds.hpp"
 
 namespace gearlash::drive {
 
@@ -138,14 +139,13 @@ bool StartClassifier::is_decided(const Watch& watch, const Stretch& stretch, Ver
   }
   const RestTolerances& rest = tolerances_.rest;
   const bool may_rest = setting_.coordinates != Coordinates::in_place;
-  if (may_rest && settles(watch, stretch, verdict)) return true;
+  if (may_rest && (settles(watch, stretch, verdict) || fades(watch, stretch, verdict))) return true;
   const bool goes_on = !is_endless(stretch);
   const bool rests = is_at_rest(watch, stretch, setting_, rest) ||
                      stands_while_driven(watch, stretch, setting_, tolerances_) ||
-                     (goes_on && (is_vanishing(watch, stretch, verdict) ||
-                                  (stretch.motion && is_fading(watch, stretch, setting_, rest))));
+                     (goes_on && is_vanishing(watch, stretch, verdict));
   if (may_rest ? rests : moves_along(watch, stretch, setting_, rest)) {
-    rest_at(watch.here.numbers, verdict);
+    rest_at(watch, watch.here.numbers, verdict);
     return true;
   }
   if (!goes_on) verdict.reason = "events without end: " + stretch.culprit;
@@ -155,10 +155,15 @@ bool StartClassifier::is_decided(const Watch& watch, const Stretch& stretch, Ver
                      verdict);
 }
 
-void StartClassifier::rest_at(const hybrid::Vector& numbers, Verdict& verdict) const {
+void StartClassifier::rest_at(const Watch& watch, const hybrid::Vector& numbers,
+                              Verdict& verdict) const {
   verdict.end = MotionEnd::rest;
   verdict.rest = {
       {.load = setting_.load.value.at(numbers), .motor = setting_.motor.value.at(numbers)}};
+  const double moved = std::max(extent_of(watch.load).width(), extent_of(watch.motor).width());
+  if (verdict.is_creeping) return;
+  verdict.uncertainty =
+      tolerances_.rest.still * moved + tolerances_.rest.no_move * setting_.small_length;
 }
 
 bool StartClassifier::settles(const Watch& watch, const Stretch& stretch, Verdict& verdict) {
@@ -175,7 +180,7 @@ bool StartClassifier::settles(const Watch& watch, const Stretch& stretch, Verdic
       return shaft.value.normal.dot(limit->drift) != 0.0;
     };
     if (!limit || drifts(setting_.load) || drifts(setting_.motor)) return false;
-    rest_at(limit->numbers, verdict);
+    rest_at(watch, limit->numbers, verdict);
     if (limit->is_on_border) {
       verdict = disturbed({state.mode, limit->numbers}, verdict);
       if (verdict.end != MotionEnd::rest) search_.rests_until_disturbed = true;
@@ -187,10 +192,22 @@ bool StartClassifier::settles(const Watch& watch, const Stretch& stretch, Verdic
   return quiet && settles_from(stretch.motion->at(*quiet));
 }
 
+bool StartClassifier::fades(const Watch& watch, const Stretch& stretch, Verdict& verdict) const {
+  if (!stretch.motion) return false;
+  const RestTolerances& rest = tolerances_.rest;
+  const auto limit = hybrid::shrinking_rounds(setting_.system.system(), *stretch.motion,
+                                              rest.fading, rest.vanishing_limit);
+  if (!limit) return false;
+  rest_at(watch, limit->numbers, verdict);
+  for (const Watched* shaft : {&setting_.load, &setting_.motor}) {
+    const double off = shaft->value.normal.cwiseAbs().dot(limit->off);
+    verdict.uncertainty = std::max(*verdict.uncertainty, off);
+  }
+  return true;
+}
+
 Verdict StartClassifier::disturbed(const State& rest, const Verdict& undisturbed) {
-  const bool is_held =
-      setting_.drive.motor.friction.is_dry() || setting_.drive.load.friction.is_dry();
-  if (is_held || is_disturbed_) return undisturbed;
+  if (has_dry_friction(setting_.drive) || is_disturbed_) return undisturbed;
   const auto known = ends_of_disturbed_.find(rest.mode);
   if (known != ends_of_disturbed_.end()) return known->second;
   is_disturbed_ = true;
@@ -217,7 +234,7 @@ bool StartClassifier::creeps(const std::vector<Standstill>& stood, const Watch& 
   verdict.is_creeping =
       verdict.approach || (is_long && stands_for_long(stood, watch, setting_, rest));
   if (!verdict.is_creeping) return false;
-  rest_at(watch.here.numbers, verdict);
+  rest_at(watch, watch.here.numbers, verdict);
   return true;
 }
 

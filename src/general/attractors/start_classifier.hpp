@@ -25,6 +25,7 @@ struct Verdict {
   std::string reason;
   double swing_ratio = std::numeric_limits<double>::quiet_NaN();
   std::vector<Standstill> rest;            ///< where, if `end` is rest
+  std::optional<double> uncertainty;       ///< rad, of that place; empty if it creeps
   std::optional<ShrinkingSteps> approach;  ///< by which it is never quite reached
   std::optional<double> time_to_rest;      ///< s, if it was asked for
   bool is_creeping = false;                ///< to rest, or there
@@ -78,11 +79,14 @@ class StartClassifier {
   /// Longest time that a start is watched: more if hardly anything happens.
   double longest(const Watch& watch, const Stretch& stretch, double patience) const;
   bool is_decided(const Watch& watch, const Stretch& stretch, Verdict& verdict);
-  /// Takes the motion for at rest there.
-  void rest_at(const hybrid::Vector& numbers, Verdict& verdict) const;
+  /// Takes the motion for at rest there, to within what counts as no move.
+  void rest_at(const Watch& watch, const hybrid::Vector& numbers, Verdict& verdict) const;
   /// Whether the motion comes to rest without another event, which may take for ever; or would have
   /// done so from the middle of its longest move on: events after that are rounding.
   bool settles(const Watch& watch, const Stretch& stretch, Verdict& verdict);
+  /// Whether the motion goes rounds that shrink to rest (shrinking_rounds()), as a shaft that
+  /// slides to the reference and sticks and slips a hundred times a second.
+  bool fades(const Watch& watch, const Stretch& stretch, Verdict& verdict) const;
   /// What small disturbances of a rest on the border of its mode lead to, if no dry friction holds
   /// it: `undisturbed`, if to rest.
   Verdict disturbed(const hybrid::State& rest, const Verdict& undisturbed);

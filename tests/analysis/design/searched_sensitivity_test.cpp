@@ -242,6 +242,23 @@ TEST(SearchedSensitivity, KnowsTheScalesOfTorqueTimeAndAngle) {
               0.0, 1e-9);
 }
 
+TEST(EdgeSearchedSensitivity, LacksTheSlopesByTheNumbersAfterAStop) {
+  class Impatient : public Progress {
+   public:
+    bool go_on(double /*share*/, std::size_t /*bytes*/) override { return ++asked < 2; }
+    int asked = 0;
+  };
+  Drive drive = pd_drive();
+  drive.controller.law =
+      PID{.terms = PIDTerms::PD, .proportional = 20.0, .derivative = 0.02, .filter = 1e-3};
+  const Analysis analysis = analyse_in_full(drive, {.borders = false});
+  Impatient impatient;
+  const Jacobian found = searched_derivatives(drive, analysis, std::array{Quantity::amplitude},
+                                              {"load.inertia", "motor.inertia"}, impatient);
+  EXPECT_TRUE(found.slope(0, 0));
+  EXPECT_FALSE(found.slope(0, 1));
+}
+
 TEST(EdgeSearchedSensitivity, SaysWhyThereIsNone) {
   Drive drive = pd_drive();
   const auto reason = [&] {

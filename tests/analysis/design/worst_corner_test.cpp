@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "base/seeded_draws.hpp"
 #include "closed_form/lanes/cycle_batch.hpp"
 #include "toleranced_samples.hpp"
@@ -143,15 +145,30 @@ TEST(WorstCorner, TellsWhatShareOfTheClimbsIsDone) {
   class Heard : public Progress {
    public:
     bool go_on(double share, std::size_t /*bytes*/) override {
-      shares.push_back(share);
+      shares.insert(share);
       return true;
     }
-    std::vector<double> shares;
+    std::set<double> shares;
   };
   Heard heard;
   worst_corner(toleranced({{"gearbox.backlash", within_share(0.3, 0.5)}}),
                {.samples = 16, .starts = 2}, {}, heard);
   EXPECT_THAT(heard.shares, testing::ElementsAre(0.0, 0.25, 0.5, 0.75));
+}
+
+/// 4096 samples of a drive that bounces, eight at a time.
+TEST(WorstCorner, AsksBetweenTheDrivesOfAClimb) {
+  class Impatient : public Progress {
+   public:
+    bool go_on(double /*share*/, std::size_t /*bytes*/) override { return ++asked < 3; }
+    int asked = 0;
+  };
+  Impatient impatient;
+  EXPECT_TRUE(worst_corner(toleranced({{"gearbox.backlash", within_share(0.3, 0.5)},
+                                       {"contact.restitution", UniformBetween{0.1, 0.9}}}),
+                           {}, {.threads = 1}, impatient)
+                  .stopped);
+  EXPECT_EQ(impatient.asked, 3);
 }
 
 TEST(EdgeWorstCorner, EveryFaultIsNamed) {
