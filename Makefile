@@ -14,7 +14,7 @@ BUILD := cmake --build --parallel $(JOBS) --preset
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo tool test python web web-serve web-bench bench versions clang sanitize fuzz oracle million followed designed tuned references referenced \
+.PHONY: help demo tool test python web web-serve web-bench bench versions clang sanitize fuzz oracle million followed believed designed tuned references referenced \
         programs python-sweep dask-rates rivals derivatives seeded-faults single includes release-check \
         coverage readme readme-check docs docs-check format format-check tidy clean wheel package package-check
 
@@ -136,6 +136,12 @@ followed: programs  ## 2,000 random drives: no ceiling and no proof by energy is
 	GEARLASH_DRIVES=2000 $(RELEASE)/tests/test_analysis \
 	  --gtest_filter='PropertyCeiling*:PropertyAbsenceByEnergy*:PropertyGapSpeed*:PropertySafeStarts*'
 	$(RELEASE)/tests/oracle/drives/bound_drives --count 200 --follow
+
+KINDS := industrial filtered-cascade weight-at-limit state-space moving-reference extreme
+believed: programs  ## 500 random drives of six kinds: each start followed longer, and others
+	set -e; for kind in $(KINDS); do echo; echo "== $$kind"; $(RELEASE)/tests/oracle/drives/score_drives \
+	  --kind $$kind --seeds 1:84 --starts 3 --random-starts 20 --follow --most-events 300000; done
+	$(RELEASE)/tests/oracle/drives/score_drives --kind frictionless --seeds 1:2000 --starts 0 --follow
 
 designed: programs  ## random design tasks of drives without a closed form, put back into them
 	GEARLASH_TASKS=300 $(RELEASE)/tests/test_analysis --gtest_filter='PropertySearchedValues*'

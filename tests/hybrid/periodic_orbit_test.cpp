@@ -102,6 +102,36 @@ hybrid::HybridSystem alternating() {
           .clocks = {{.name = "sampler", .period = 1.0}}};
 }
 
+/// A number that goes to and fro between −1 and 1 in 4 s, beside a sine of 6283 s about its peak,
+/// which 4 s move by 1e-5 of it.
+TEST(EdgePeriodicOrbit, UnderASineIsNoneThatTheSineDoesNotClose) {
+  constexpr double rate = 1e-3;
+  hybrid::HybridSystem system{.state_names = {"way", "sine", "cosine"}};
+  for (const double speed : {1.0, -1.0}) {
+    hybrid::AffineMode mode;
+    mode.name = speed > 0.0 ? "forward" : "backward";
+    mode.flow = {Matrix::Zero(3, 3), speed * Vector::Unit(3, 0)};
+    mode.flow.matrix(1, 2) = rate;
+    mode.flow.matrix(2, 1) = -rate;
+    hybrid::Transition turns;
+    turns.name = "turns";
+    turns.guard = {speed * Vector::Unit(3, 0), -1.0};
+    turns.direction = hybrid::Direction::rising;
+    turns.target = speed > 0.0 ? 1 : 0;
+    mode.transitions.push_back(turns);
+    system.modes.push_back(mode);
+  }
+  const hybrid::ShootingOptions options{.nearness = 1e-3};
+  const auto closed = [&](double sine) {
+    const hybrid::State start{0, Vector::Unit(3, 1) * sine};
+    return closing_orbit(system, simulate(system, start, {.until = 40.0}), options);
+  };
+  const auto without = closed(0.0);
+  ASSERT_TRUE(without);
+  EXPECT_NEAR(without->period, 4.0, 1e-12);
+  EXPECT_FALSE(closed(1.0));
+}
+
 TEST(EdgePeriodicOrbit, APeriodIsGoneAroundOnce) {
   // Where one tick is too far from the next one but one, only two together nearly close.
   const hybrid::HybridSystem system = alternating();

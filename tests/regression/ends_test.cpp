@@ -106,6 +106,31 @@ TEST(Ends, RoundingIsNotIntegrated) {
   EXPECT_LT(answer.rest->time->longest, 10.0);
 }
 
+/// Gains ten times too high. From large starts swings grow at the torque limit, up to ±5.13 rad at
+/// 0.546 Hz, as an independent simulator and `simulate` have it.
+TEST(Ends, SwingsThatGrowAtTheLimitEndWhereViscousFrictionBrakesThem) {
+  const Answer answer = answer_of("swings-grow-at-the-limit");
+  EXPECT_EQ(answer.search->count("diverges"), 0U);
+  const bool is_listed =
+      std::any_of(answer.cycles.begin(), answer.cycles.end(),
+                  [](const Cycle& cycle) { return std::abs(cycle.amplitude - 5.13) < 0.02; }) ||
+      std::any_of(answer.irregular.begin(), answer.irregular.end(),
+                  [](const auto& motion) { return std::abs(motion.amplitude - 5.13) < 0.02; });
+  EXPECT_TRUE(is_listed);
+}
+
+/// The first start is watched for five periods of 3.19 s and more; the others join it.
+TEST(Ends, SampledStartsUnderASineJoinAMotionThatIsKnown) {
+  const Answer answer = answer_of("sampled-under-a-sine");
+  EXPECT_EQ(answer.verdict, Verdict::forced);
+  ASSERT_EQ(answer.irregular.size(), 1U);
+  EXPECT_EQ(answer.irregular[0].starts, answer.search->starts.size());
+  EXPECT_NEAR(answer.irregular[0].amplitude, 0.02104, 2e-5);
+  double watched = 0.0;
+  for (const StartOutcome& start : answer.search->starts) watched += start.watched;
+  EXPECT_LT(watched / static_cast<double>(answer.search->starts.size()), 10.0);
+}
+
 TEST(Ends, OneUndecidedStartOfManyIsNotTheVerdict) {
   for (const char* file : {"one-start-undecided-b59", "one-start-undecided-c16"}) {
     EXPECT_EQ(answer_of(file).verdict, Verdict::comes_to_rest) << file;

@@ -297,7 +297,7 @@ FollowedStart follow(const Drive& drive, const Answer& answer, const StartOutcom
   FollowOptions longer = options;
   longer.share = options.irregular_share;
   longer.times_of_hunting *= 8.0;
-  longer.most_events *= 8;
+  longer.most_events = std::max<std::size_t>(longer.most_events, 1'000'000);
   return follow_hunting(searched, answer, start, longer);
 }
 

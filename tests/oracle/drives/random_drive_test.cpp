@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <set>
 #include <string>
@@ -50,6 +52,63 @@ TEST(PropertyRandomDrive, HasNoComputerWhereItIsContinuous) {
       EXPECT_EQ(plain_drive(drive).load.breakaway, plain_drive(drive).load.coulomb);
     }
   }
+}
+
+constexpr std::array new_kinds = {DriveKind::filtered_cascade, DriveKind::weight_at_limit,
+                                  DriveKind::state_space, DriveKind::moving_reference,
+                                  DriveKind::extreme};
+
+TEST(PropertyRandomDrive, OfEveryKindIsSoundAndReadsBack) {
+  for (const DriveKind kind : new_kinds) {
+    std::size_t with_computer = 0;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+      const Drive drive = random_drive(seed, kind);
+      SCOPED_TRACE("kind " + std::to_string(static_cast<int>(kind)) + ", seed " +
+                   std::to_string(seed));
+      EXPECT_TRUE(faults(drive).empty());
+      EXPECT_EQ(to_toml(parse_drive(to_toml(drive))), to_toml(drive));
+      EXPECT_NO_THROW((void)plain_drive(drive));
+      with_computer += drive.sampling ? 1U : 0U;
+    }
+    EXPECT_EQ(with_computer, kind == DriveKind::extreme ? 100U : 50U);
+  }
+}
+
+TEST(PropertyRandomDrive, HasWhatItsKindSays) {
+  std::set<std::string> seen;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Drive cascade = random_drive(seed, DriveKind::filtered_cascade);
+    EXPECT_GT(std::get<CascadeController>(cascade.controller.law).filter, 0.0);
+    EXPECT_GT(cascade.motor.friction.stribeck_speed, 0.0);
+    const Drive weight = random_drive(seed, DriveKind::weight_at_limit);
+    const double holding = weight.load.gravity * std::cos(weight.load.gravity_angle);
+    const double share = holding / (*weight.motor.limit * weight.gearbox.ratio);
+    EXPECT_GE(share, 0.599);
+    EXPECT_LE(share, 1.101);
+    if (weight.controller.dead_band.width > 0.0) seen.insert("dead band");
+    if (weight.controller.compensation.friction > 0.0) seen.insert("friction compensated");
+    if (weight.controller.compensation.backlash > 0.0) seen.insert("backlash compensated");
+    const auto order =
+        std::get<StateSpaceController>(random_drive(seed, DriveKind::state_space).controller.law)
+            .A.size();
+    EXPECT_GE(order, 2U);
+    seen.insert("order " + std::to_string(order));
+    const Drive moving = random_drive(seed, DriveKind::moving_reference);
+    seen.insert("signal " + std::to_string(moving.reference->index()));
+    const Drive extreme = random_drive(seed, DriveKind::extreme);
+    if (extreme.gearbox.backlash == 1e-6) seen.insert("small gap");
+    if (extreme.sampling->delay > extreme.sampling->period) seen.insert("long delay");
+    if (plain_drive(extreme).step > extreme.gearbox.backlash) seen.insert("wide step");
+    const Drive free = frictionless_drive(seed);
+    EXPECT_TRUE(faults(free).empty());
+    EXPECT_EQ(free.motor.friction, Friction{});
+    EXPECT_EQ(free.load.friction, Friction{});
+  }
+  EXPECT_EQ(seen,
+            (std::set<std::string>{"dead band", "friction compensated", "backlash compensated",
+                                   "order 2", "order 4", "order 6", "signal 2", "signal 3",
+                                   "signal 4", "small gap", "long delay", "wide step"}));
 }
 
 TEST(PropertyRandomDrive, ReadsBackFromItsFile) {
