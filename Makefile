@@ -137,7 +137,8 @@ followed: programs  ## 2,000 random drives: no ceiling and no proof by energy is
 	  --gtest_filter='PropertyCeiling*:PropertyAbsenceByEnergy*:PropertyGapSpeed*:PropertySafeStarts*'
 	$(RELEASE)/tests/oracle/drives/bound_drives --count 200 --follow
 
-KINDS := industrial filtered-cascade weight-at-limit state-space moving-reference extreme
+KINDS := industrial filtered-cascade weight-at-limit state-space moving-reference extreme \
+         without-integral
 believed: programs  ## 500 random drives of six kinds: each start followed longer, and others
 	set -e; for kind in $(KINDS); do echo; echo "== $$kind"; $(RELEASE)/tests/oracle/drives/score_drives \
 	  --kind $$kind --seeds 1:84 --starts 3 --random-starts 20 --follow --most-events 300000; done

@@ -327,6 +327,28 @@ Drive moving_reference(Dice& dice) {
   return drive;
 }
 
+Drive without_integral(Dice& dice) {
+  Drive drive;
+  draw_drive(dice, drive, Law::pid);
+  auto& pid = std::get<PID>(drive.controller.law);
+  pid.terms = PIDTerms::PD;
+  pid.integral = pid.tracking_time = 0.0;
+  drive.contact = RigidContact{dice.chance(0.5) ? 0.0 : dice.between(0.1, 0.7)};
+  drive.load_torque.reset();
+  drive.load.gravity = 0.0;
+  const double torque = *drive.motor.limit * drive.gearbox.ratio * dice.between(-0.3, 0.3);
+  const double kind = dice.between(0.0, 3.0);
+  if (kind < 1.0) {
+    drive.controller.dead_band.width = drive.gearbox.backlash * dice.log_between(0.1, 3.0);
+  } else if (kind < 2.0) {
+    drive.load_torque = Dice::rounded(torque);
+  } else {
+    drive.load.gravity = Dice::rounded(std::abs(torque));
+    drive.load.gravity_angle = dice.between(-1.2, 1.2);
+  }
+  return drive;
+}
+
 void multiply_gains(double factor, Controller& controller) {
   if (auto* cascade = std::get_if<CascadeController>(&controller.law)) {
     cascade->position *= factor;
@@ -369,6 +391,8 @@ Drive drawn(Dice& dice, DriveKind kind) {
       return state_space(dice);
     case DriveKind::moving_reference:
       return moving_reference(dice);
+    case DriveKind::without_integral:
+      return without_integral(dice);
     case DriveKind::extreme:
       return extreme(dice);
     case DriveKind::industrial:

@@ -55,8 +55,8 @@ TEST(PropertyRandomDrive, HasNoComputerWhereItIsContinuous) {
 }
 
 constexpr std::array new_kinds = {DriveKind::filtered_cascade, DriveKind::weight_at_limit,
-                                  DriveKind::state_space, DriveKind::moving_reference,
-                                  DriveKind::extreme};
+                                  DriveKind::state_space,      DriveKind::moving_reference,
+                                  DriveKind::without_integral, DriveKind::extreme};
 
 TEST(PropertyRandomDrive, OfEveryKindIsSoundAndReadsBack) {
   for (const DriveKind kind : new_kinds) {
