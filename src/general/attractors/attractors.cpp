@@ -168,6 +168,7 @@ class Search {
                     .which = verdict.which,
                     .watched = verdict.watched,
                     .reason = verdict.reason,
+                    .rest = {},
                     .time_to_rest = verdict.time_to_rest};
     if (verdict.end == MotionEnd::rest) {
       record_rest(verdict);

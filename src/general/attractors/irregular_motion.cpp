@@ -264,9 +264,17 @@ bool is_same_course(const Course& one, const Course& other, const IrregularFound
 
 }  // namespace
 
-bool repeats_course(const Stretch& stretch, const IrregularFound& found,
+bool repeats_course(const Watch& watch, const Stretch& stretch, const IrregularFound& found,
                     const SearchSetting& setting, const IrregularTolerances& tolerances) {
-  return is_same_course(stretch.course, stretch.course_before, found, setting, tolerances);
+  Extent first;
+  Extent last;
+  const double middle = 0.5 * (stretch.from + stretch.to);
+  for (const Sample& sample : after(watch.load, stretch.from)) {
+    (sample.time < middle ? first : last).include(sample.value);
+  }
+  const double apart = tolerances.steady_statistics * std::max(first.width(), last.width());
+  return agree(first.low, last.low, 1.0, apart) && agree(first.high, last.high, 1.0, apart) &&
+         is_same_course(stretch.course, stretch.course_before, found, setting, tolerances);
 }
 
 bool runs_along(const Stretch& stretch, const SteadyMotion& known, const SearchSetting& setting,
@@ -313,7 +321,8 @@ std::size_t place_among(const std::vector<IrregularFound>& known, const Irregula
   const double extent = std::max(found.amplitude, found.motor_amplitude);
   const auto same = std::find_if(known.begin(), known.end(), [&](const IrregularFound& one) {
     // If the motor hunts alone, the load may stand anywhere.
-    const bool is_centered = found.is_motor_alone || agree(one.center, found.center, extent, share);
+    const bool is_centered =
+        found.is_motor_alone || agree(one.center, found.center, extent, tolerances.same_ranges);
     // Its mean swings are better known than its extremes, which are larger the longer it is
     // watched.
     const double close = tolerances.steady_statistics;

@@ -49,7 +49,8 @@ bool is_same(const SteadyMotion& one, const SteadyMotion& other, const SearchSet
 
 /// Whether under a sine both shafts were in the last period where they were in the one before, to
 /// IrregularTolerances::repeating of the amplitude or half an encoder step, and no number drifts.
-bool repeats_course(const Stretch& stretch, const IrregularFound& found,
+/// Both halves of the stretch have the same extremes of the load, to steady_statistics.
+bool repeats_course(const Watch& watch, const Stretch& stretch, const IrregularFound& found,
                     const SearchSetting& setting, const IrregularTolerances& tolerances);
 
 /// Whether a stretch ends likewise on a steady motion under a sine that repeats its course.

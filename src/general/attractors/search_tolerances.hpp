@@ -102,7 +102,8 @@ struct IrregularTolerances {
   /// ... or to this share of the encoder's step.
   double steady_steps = 0.5;
   /// All numbers must then cover the ranges that they covered before, to this share. The period of
-  /// a motor that hunts alone, and the extremes of swings that scatter, may differ by it too.
+  /// a motor that hunts alone, and the extremes of swings that scatter and their middle, may differ
+  /// by it too.
   double same_ranges = 0.15;
   /// Swings that repeat to this share may be a cycle ...
   double repeating = 1e-3;
@@ -135,6 +136,8 @@ struct SearchBudget {
   double periods_of_sine = 5.0;
   /// ... or this many once a motion is known that it may join.
   double periods_to_join = 1.25;
+  /// Ticks do not count as events within so many.
+  double most_periods_of_sine = 16.0;
   /// A stretch of a sampled drive ends after this many events, or twice those of the one before: a
   /// motor that ticks after a long standstill has its swings soon.
   std::size_t ticks_of_stretch = 20'000;

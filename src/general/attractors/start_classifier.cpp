@@ -79,7 +79,9 @@ Verdict StartClassifier::watched(Watch& watch, double patience, double longer) {
 
 std::size_t StartClassifier::most_events() const {
   const std::size_t ticks = setting_.drive.sampling ? budget_.most_ticks * options_.most_events : 0;
-  return options_.most_events + ticks;
+  const std::size_t under_sine =
+      is_under_sine() ? ticks_in(budget_.most_periods_of_sine * setting_.common_sine) : 0;
+  return options_.most_events + std::max(ticks, under_sine);
 }
 
 std::size_t StartClassifier::ticks_in(double time) const {
@@ -245,11 +247,12 @@ const StartClassifier::Known* StartClassifier::known_as(const SteadyMotion& moti
   return known == known_.end() ? nullptr : &*known;
 }
 
-SteadyMotion StartClassifier::steady(const Stretch& stretch, const IrregularFound& found) const {
+SteadyMotion StartClassifier::steady(const Watch& watch, const Stretch& stretch,
+                                     const IrregularFound& found) const {
   return {.found = found,
           .ranges = stretch.last,
           .course = stretch.course,
-          .repeats_course = repeats_course(stretch, found, setting_, tolerances_.irregular)};
+          .repeats_course = repeats_course(watch, stretch, found, setting_, tolerances_.irregular)};
 }
 
 bool StartClassifier::joins(const Stretch& stretch, Verdict& verdict) const {
@@ -271,7 +274,7 @@ bool StartClassifier::is_steady(const Watch& watch, const Stretch& stretch,
     if (watch.events < most_events()) before.reset();  // not of a stretch that was cut short
     return false;
   }
-  const SteadyMotion now = steady(stretch, seen.found);
+  const SteadyMotion now = steady(watch, stretch, seen.found);
   if (stretch.motion && may_still_close(now, before)) {
     before = now;
     return false;
@@ -372,7 +375,7 @@ void StartClassifier::give_up(const Watch& watch, const Stretch& stretch,
     verdict.reason = seen.reason;
     return;
   }
-  const SteadyMotion last = seen.reason.empty() ? steady(stretch, seen.found) : *before;
+  const SteadyMotion last = seen.reason.empty() ? steady(watch, stretch, seen.found) : *before;
   if (!excludes_decay(last.found.fastest_decay, last.found.watched)) {
     std::ostringstream reason;
     reason << std::setprecision(2) << "after " << watch.time

@@ -103,7 +103,8 @@ class StartClassifier {
   bool is_under_sine() const { return setting_.drive.sampling && setting_.common_sine > 0.0; }
   /// Events of a clock.
   std::size_t ticks_in(double time) const;
-  SteadyMotion steady(const Stretch& stretch, const IrregularFound& found) const;
+  SteadyMotion steady(const Watch& watch, const Stretch& stretch,
+                      const IrregularFound& found) const;
   /// Whether it runs along with a motion under a sine that is known.
   bool joins(const Stretch& stretch, Verdict& verdict) const;
   /// Whether a motion that was kept, on which no cycle was closed, repeats ever better.

@@ -327,7 +327,7 @@ TEST(Describing, ExactMotionsAreThoseOfTheAnswer) {
   ASSERT_EQ(motions.size(), 3U);
   EXPECT_FALSE(motions[0].is_stable);
   EXPECT_EQ(motions[0].period, 5.0);
-  EXPECT_EQ(motions[1].amplitude, 1.0);
+  EXPECT_EQ(motions[1].amplitude, 1.2);
   EXPECT_EQ(motions[1].motor_amplitude, 1.5);
   EXPECT_EQ(motions[1].period, 4.0);
   const auto error =

@@ -301,6 +301,9 @@ Drive state_space(Dice& dice) {
     const double wide = dice.between(0.3, 0.8);
     all = in_series(all, notch(rate * dice.between(4.0, 10.0), 0.2 * wide, wide));
   }
+  for (std::vector<double>& row : all.A) {
+    for (double& value : row) value += 0.0;  // no −0, which a file does not keep
+  }
   StateSpaceController law{.gain = scale.inertia * rate * rate * lead, .A = all.A};
   for (const double one : all.B) law.B.push_back({one});
   law.C = all.C;
@@ -316,7 +319,7 @@ Drive moving_reference(Dice& dice) {
   const double way = gap * dice.log_between(0.3, 1000.0);
   const double rate = 2.0 * std::numbers::pi * dice.log_between(0.05, 5.0);
   const double kind = dice.between(0.0, 1.0);
-  if (kind < 0.4) {
+  if (kind < 0.4 || (kind < 0.7 && drive.load.gravity > 0.0)) {  // a ramp has no gravity
     drive.reference = SineSignal{.amplitude = way, .frequency = rate};
   } else if (kind < 0.7) {
     drive.reference = RampSignal{.rate = way * rate};
