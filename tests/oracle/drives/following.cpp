@@ -184,9 +184,15 @@ FollowedStart follow_hunting(const Drive& drive, const Answer& answer, const Sta
   return result;
 }
 
-bool has_numbers(const Controller& controller) {
-  const auto* pid = std::get_if<PID>(&controller.law);
-  return pid == nullptr || pid->integral != 0.0;
+/// Whether a controller that begins with its numbers 0 holds what it would hold at rest: it has no
+/// integral, its filtered derivative is that of the speed, and nothing pulls before its first
+/// output.
+bool holds_at_once(const Drive& drive) {
+  const auto* pid = std::get_if<PID>(&drive.controller.law);
+  const bool pulls = drive.load_torque || drive.load.gravity != 0.0;
+  return pid != nullptr && pid->integral == 0.0 &&
+         (pid->filter == 0.0 || pid->derivative == 0.0 || pid->derivative_of_speed) &&
+         !(drive.sampling && pulls);
 }
 
 bool is_in_another(const Rest& rest, const RestPiece& piece, double load) {
@@ -245,7 +251,7 @@ bool is_near_border(const Drive& drive, const Answer& answer, const StartOutcome
 
 void follow_pieces(const Drive& drive, const Answer& answer, FollowedDrive& result) {
   const bool is_rigid = std::holds_alternative<RigidContact>(drive.contact);
-  if (!answer.rest || !is_rigid || has_numbers(drive.controller)) return;
+  if (!answer.rest || !is_rigid || !holds_at_once(drive)) return;
   const Drive searched = as_searched(drive);
   const auto* constant = searched.reference ? std::get_if<double>(&*searched.reference) : nullptr;
   if (searched.reference && constant == nullptr) return;

@@ -336,6 +336,7 @@ Drive without_integral(Dice& dice) {
   auto& pid = std::get<PID>(drive.controller.law);
   pid.terms = PIDTerms::PD;
   pid.integral = pid.tracking_time = 0.0;
+  pid.derivative_of_speed = true;
   drive.contact = RigidContact{dice.chance(0.5) ? 0.0 : dice.between(0.1, 0.7)};
   drive.load_torque.reset();
   drive.load.gravity = 0.0;
