@@ -85,13 +85,20 @@ class Simulation {
   Observed observed() {
     Trajectory rest = run();
     return {rest.end_time_, std::move(rest.end_), rest.stop_reason_, std::move(rest.culprit_),
-            rest.events_.size() + forgotten_};
+            rest.events_.size() + forgotten_ + stood_ / ticks_of_event};
   }
 
  private:
+  /// So many ticks of a drive that stands, repeated one by one, count as an event.
+  static constexpr std::size_t ticks_of_event = 10;
+
+  [[nodiscard]] std::size_t count() const {
+    return trajectory_.events_.size() + forgotten_ + stood_ / ticks_of_event;
+  }
+
   /// Asks now and then.
   bool is_to_stop() {
-    constexpr std::size_t between = 1024;
+    constexpr std::size_t between = 64;  // a round may stand for thousands of ticks
     if (options_.progress == nullptr || ++rounds_ % between != 0) return false;
     return !options_.progress->go_on((now_.time - options_.from) /
                                      (options_.until - options_.from));
@@ -122,8 +129,10 @@ class Simulation {
     if (now_.time >= options_.until) return false;
     const bool stands = standing_->stands_clear();
     if (repeating_->pass_over(stands)) return true;
-    if (stands && !repeating_->is_young()) standing_->stand();
-    return false;
+    if (stands && !repeating_->is_young()) stood_ += standing_->stand();
+    if (count() < options_.event_limit) return false;
+    stop(StopReason::event_limit);
+    return true;
   }
 
   // ---- steps and events -------------------------------------------------------------------------
@@ -291,7 +300,7 @@ class Simulation {
     recurring_.note();
     if (repeating_) repeating_->note();
     enter_mode();
-    if (events.size() + forgotten_ >= options_.event_limit) stop(StopReason::event_limit);
+    if (count() >= options_.event_limit) stop(StopReason::event_limit);
     if (observer_ != nullptr) forget();
   }
 
@@ -447,6 +456,7 @@ class Simulation {
   Vector before_;  ///< numbers at the start of a piece that is observed
   bool stopped_ = false;
   std::size_t at_instant_ = 0;
+  std::size_t stood_ = 0;       ///< ticks that were repeated
   std::size_t forgotten_ = 0;   ///< events no longer kept
   std::vector<Event> spare_{};  ///< some of them
   Trajectory trajectory_;

@@ -5,19 +5,22 @@
 
 namespace gearlash::hybrid {
 
-void Standing::stand() {
-  if (ticks_.count() == 0 || !ticks_.are_regular()) return;
+std::size_t Standing::stand() {
+  std::size_t repeated = 0;
+  if (ticks_.count() == 0 || !ticks_.are_regular()) return repeated;
   const double period = ticks_.common_period();
   Rounds rounds;
   double round_ends = now_.time;
   std::size_t unchanged = 0;
   rounding_ = earlier_rounding_ = Vector::Zero(now_.state.numbers.size());
-  while (ticks_.next() < until_ && stands_clear()) {
+  constexpr std::size_t most_at_a_time = 4096;
+  while (repeated < most_at_a_time && ticks_.next() < until_ && stands_clear()) {
     before_ = now_.state.numbers;
     if (!repeat_ticks(ticks_.next())) {
       now_.state.numbers = before_;
-      return;
+      return repeated;
     }
+    ++repeated;
     unchanged = now_.state.numbers == before_ ? unchanged + 1 : 0;
     // Each clock has ticked at least once in this many instants.
     if (unchanged > 2 * ticks_.count()) ticks_.pass_before(until_);
@@ -35,6 +38,7 @@ void Standing::stand() {
       rounds.begin_again();
     }
   }
+  return repeated;
 }
 
 void Standing::Rounds::add(const Vector& numbers, const Vector& rounding) {

@@ -18,7 +18,8 @@ class Standing {
 
   /// Repeats the ticks of a mode in which nothing moves, while they lead back to it and leave its
   /// guards clear. The clocks fire before the next step. Precondition: none is due.
-  void stand();
+  /// Returns the number of ticks that were repeated one by one, some thousands at most.
+  std::size_t stand();
 
   /// The present numbers do not move, and no guard left its side there.
   void note_quiet() {

@@ -107,6 +107,20 @@ TEST(Observe, StopsStandingAtTheTickThatBreaksAway) {
 }
 
 /// Ticks that change nothing are passed over, however many they are.
+/// Its integral decays by 1e-4 of itself at each tick, so that no two changes are alike. Ten such
+/// ticks count as an event.
+TEST(Observe, AnEndlessStandstillOfTicksThatDifferEndsByItsEvents) {
+  HybridSystem system = stuck_mass(1e-3, 0.0, 10.0);
+  Matrix& tick = system.modes[0].timed[0].reset.matrix;
+  tick(3, 3) = 1.0 - 1e-4;
+  Kept kept;
+  const Observed observed = observe(PreparedSystem(system), {0, Vector{{0.0, 0.0, 0.0, 1.0}}},
+                                    {.until = 1e9, .event_limit = 2000}, kept);
+  EXPECT_EQ(observed.stop_reason, StopReason::event_limit);
+  EXPECT_GE(observed.events, 2000U);
+  EXPECT_LT(observed.time, 50.0);
+}
+
 TEST(Observe, PassesOverTicksThatChangeNothing) {
   const PreparedSystem system(stuck_mass(1e-6, 0.0, 0.8));
   Kept kept;

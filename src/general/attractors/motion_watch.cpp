@@ -212,9 +212,12 @@ Stretch follow(Watch& watch, double until, std::size_t step_limit, std::size_t e
                const SearchSetting& setting, const SearchBudget& budget) {
   Stretch stretch{.from = watch.time};
   watch.marks.push_back({watch.time, watch.here});
-  stretch.motion = simulate(
-      setting.system, watch.here,
-      {.from = watch.time, .until = until, .event_limit = event_limit, .step_limit = step_limit});
+  stretch.motion = simulate(setting.system, watch.here,
+                            {.from = watch.time,
+                             .until = until,
+                             .event_limit = event_limit,
+                             .step_limit = step_limit,
+                             .progress = watch.progress});
   const hybrid::Trajectory& motion = *stretch.motion;
   stretch.to = motion.end_time();
   stretch.end = motion.end();
@@ -241,9 +244,10 @@ Stretch observe(Watch& watch, double until, std::size_t event_limit, const Searc
   Stretch stretch{.from = watch.time};
   watch.marks.push_back({watch.time, watch.here});
   StretchObserver observer(watch, until, setting);
-  hybrid::Observed seen =
-      observe(setting.system, watch.here,
-              {.from = watch.time, .until = until, .event_limit = event_limit}, observer);
+  hybrid::Observed seen = observe(
+      setting.system, watch.here,
+      {.from = watch.time, .until = until, .event_limit = event_limit, .progress = watch.progress},
+      observer);
   stretch.to = seen.time;
   stretch.end = std::move(seen.end);
   stretch.stop_reason = seen.stop_reason;

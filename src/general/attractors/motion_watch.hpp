@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gearlash/progress.hpp"
 #include "general/attractors/search_setting.hpp"
 
 namespace gearlash::drive {
@@ -36,6 +37,7 @@ struct Watch {
   std::vector<Mark> marks{};     ///< the start of each stretch
   std::vector<Extent> before{};  ///< of each number in the last half of the stretch before
   bool starts_at_rest = false;
+  Progress* progress = nullptr;  ///< may stop it
 };
 
 /// A motion during a period of a sine. Empty if it is not known.

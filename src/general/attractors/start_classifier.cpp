@@ -25,7 +25,9 @@ std::size_t steps_kept(const SearchSetting& setting, const SearchBudget& budget)
 }
 
 Verdict StartClassifier::end_of(const State& start, double patience, double longer) {
-  Watch watch{.here = start, .starts_at_rest = setting_.load.speed.at(start.numbers) == 0.0};
+  Watch watch{.here = start,
+              .starts_at_rest = setting_.load.speed.at(start.numbers) == 0.0,
+              .progress = &asked_};
   Verdict verdict = watched(watch, patience, longer);
   if (!is_disturbed_) last_ = std::move(watch);
   return verdict;

@@ -135,6 +135,16 @@ class StartClassifier {
   const SearchBudget& budget_ = options_.budget;
   AttractorSearch& search_;
   std::function<bool()> goes_on_;
+  /// Asks that within a stretch.
+  class Asked : public Progress {
+   public:
+    explicit Asked(const std::function<bool()>& goes_on) : goes_on_(goes_on) {}
+    bool go_on(double /*share*/, std::size_t /*bytes*/) override { return goes_on_(); }
+
+   private:
+    const std::function<bool()>& goes_on_;
+  };
+  Asked asked_{goes_on_};
   CycleClosing closing_{setting_, options_};
   std::vector<Known> known_;
   Watch last_;                                        ///< of the last start
