@@ -31,6 +31,12 @@ struct Event {
   std::size_t mode_after = 0;
   Vector before;
   Vector after;
+
+  /// Whether the same transition was taken between the same modes.
+  bool is_alike(const Event& other) const {
+    return kind == other.kind && mode == other.mode && transition == other.transition &&
+           mode_after == other.mode_after;
+  }
 };
 
 /// A guard that came to 0 and turned back, within rounding. A small change of the system makes it

@@ -8,11 +8,6 @@
 namespace gearlash::hybrid {
 namespace {
 
-bool is_same_event(const Event& a, const Event& b) {
-  return a.kind == b.kind && a.mode == b.mode && a.transition == b.transition &&
-         a.mode_after == b.mode_after;
-}
-
 /// Among the intervals between successive events from `first` to `last`.
 double middle_of_longest(const std::vector<Event>& events, std::size_t first, std::size_t last) {
   double longest = 0.0;
@@ -38,7 +33,7 @@ bool repeats_after(const PeriodicOrbit& orbit, std::size_t count) {
   for (std::size_t i = 0; i + count < events.size(); ++i) {
     const Event& now = events[i];
     const Event& later = events[i + count];
-    const bool is_alike = is_same_event(now, later) &&
+    const bool is_alike = now.is_alike(later) &&
                           std::abs(later.time - now.time - turn) <= alike * orbit.period &&
                           largest_entry(later.after - now.after) <= alike * scale;
     if (!is_alike) return false;
@@ -93,7 +88,7 @@ std::optional<PeriodicOrbit> closing_orbit(const PreparedSystem& system, const T
     const bool has_returned = distance <= returned * farthest;
     farthest = std::max({farthest, distance, largest_entry(begin.before - end.after)});
     if (distance > options.nearness * scale) continue;
-    if (!is_same_event(begin, end) || !(begin.time < end.time)) continue;
+    if (!begin.is_alike(end) || !(begin.time < end.time)) continue;
     // A motion that has hardly moved creeps, or rests from tick to tick. The latter gets a few
     // tries.
     if (!has_returned && tries_at_rest++ >= most_tries_at_rest) continue;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <vector>
 
 #include "hybrid/linear_flow.hpp"
@@ -10,17 +9,12 @@
 namespace gearlash::hybrid {
 namespace {
 
-bool is_same_kind(const Event& one, const Event& other) {
-  return std::tie(one.kind, one.mode, one.transition, one.mode_after) ==
-         std::tie(other.kind, other.mode, other.transition, other.mode_after);
-}
-
 /// How many of the last events are each of the kind of that `round` events before.
 std::size_t length_of_tail(const std::vector<Event>& events, std::size_t round) {
   std::size_t length = 0;
   while (length + round < events.size()) {
     const Event& one = events[events.size() - 1 - length];
-    if (!is_same_kind(one, events[events.size() - 1 - length - round])) break;
+    if (!one.is_alike(events[events.size() - 1 - length - round])) break;
     ++length;
   }
   return length;

@@ -32,11 +32,6 @@ PeriodicOrbit divided(PeriodicOrbit orbit, int times, double mismatch) {
   return orbit;
 }
 
-bool is_same_event(const Event& a, const Event& b) {
-  return a.kind == b.kind && a.mode == b.mode && a.transition == b.transition &&
-         a.mode_after == b.mode_after;
-}
-
 }  // namespace
 
 std::optional<PeriodicOrbit> CycleClosing::closed(const Trajectory& motion, double nearness) const {
@@ -123,9 +118,8 @@ std::optional<std::size_t> CycleClosing::known_cycle_of(
   for (std::size_t i = 0; i < known.size(); ++i) {
     if (known[i].stability != Stability::stable) continue;
     for (const Event& event : known[i].orbit.events) {
-      if (is_same_event(event, last) &&
-          (event.after - last.after).cwiseAbs().maxCoeff() <=
-              tolerances_.known_event * event.after.cwiseAbs().maxCoeff()) {
+      if (event.is_alike(last) && (event.after - last.after).cwiseAbs().maxCoeff() <=
+                                      tolerances_.known_event * event.after.cwiseAbs().maxCoeff()) {
         return i;
       }
     }

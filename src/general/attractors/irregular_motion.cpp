@@ -36,16 +36,21 @@ bool shrink(const std::vector<Sample>& turns) {
   return swings.last < clearly * swings.first;
 }
 
+/// Of the samples before a time, and from it on.
+std::pair<Extent, Extent> ranges_about(double time, const std::vector<Sample>& samples) {
+  std::pair<Extent, Extent> ranges;
+  for (const Sample& sample : samples) {
+    (sample.time < time ? ranges.first : ranges.second).include(sample.value);
+  }
+  return ranges;
+}
+
 /// Whether both halves have about the same range; or the same swings, and the wider range includes
 /// the other: their middle wanders to and fro.
 bool is_steady(const std::vector<Sample>& samples, const std::vector<Sample>& turns,
                const IrregularTolerances& tolerances) {
-  const double middle = 0.5 * (samples.front().time + samples.back().time);
-  Extent first;
-  Extent last;
-  for (const Sample& sample : samples) {
-    (sample.time < middle ? first : last).include(sample.value);
-  }
+  const auto [first, last] =
+      ranges_about(0.5 * (samples.front().time + samples.back().time), samples);
   const double wider = std::max(first.width(), last.width());
   const double share = tolerances.steadiness;
   if (agree(first.width(), last.width(), wider, share)) return true;
@@ -266,12 +271,8 @@ bool is_same_course(const Course& one, const Course& other, const IrregularFound
 
 bool repeats_course(const Watch& watch, const Stretch& stretch, const IrregularFound& found,
                     const SearchSetting& setting, const IrregularTolerances& tolerances) {
-  Extent first;
-  Extent last;
-  const double middle = 0.5 * (stretch.from + stretch.to);
-  for (const Sample& sample : after(watch.load, stretch.from)) {
-    (sample.time < middle ? first : last).include(sample.value);
-  }
+  const auto [first, last] =
+      ranges_about(0.5 * (stretch.from + stretch.to), after(watch.load, stretch.from));
   const double apart = tolerances.steady_statistics * std::max(first.width(), last.width());
   return agree(first.low, last.low, 1.0, apart) && agree(first.high, last.high, 1.0, apart) &&
          is_same_course(stretch.course, stretch.course_before, found, setting, tolerances);

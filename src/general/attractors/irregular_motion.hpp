@@ -67,8 +67,8 @@ bool stands_while_driven(const Watch& watch, const Stretch& stretch, const Searc
 std::size_t place_among(const std::vector<IrregularFound>& known, const IrregularFound& found,
                         const IrregularTolerances& tolerances);
 
-/// Whether a cycle is stable, lies where an irregular motion moves, and is no smaller than its mean
-/// swings, to IrregularTolerances::same_ranges: the motion may yet join it.
+/// Whether a cycle is stable and lies where an irregular motion moves, to
+/// IrregularTolerances::same_ranges: the motion may yet join it.
 bool may_join(const IrregularFound& motion, const FoundCycle& cycle,
               const IrregularTolerances& tolerances);
 
