@@ -137,9 +137,19 @@ class Continuation {
 
   Branch run() {
     Branch branch;
-    if (!shooting_) return branch;
+    if (shooting_) follow(branch);
+    if (is_stopped_) branch.end = BranchEnd::stopped;
+    return branch;
+  }
+
+ private:
+  static constexpr std::size_t phases = 4;
+  static constexpr double shortest = 1e-9;    // the branch ends at a failing step this short,
+  static constexpr double slow_going = 1e-5;  // or at a converging one
+
+  void follow(Branch& branch) {
     auto solved = corrected(point_, Vector::Unit(size_ + 1, size_));
-    if (!solved) return branch;
+    if (!solved) return;
     branch.points.push_back({parameter_of(solved->point), solved->orbit});
     tangent_ = Vector::Unit(size_ + 1, size_) * (options_.upwards ? 1.0 : -1.0);
     tangent_ = tangent_of(*solved);
@@ -150,36 +160,30 @@ class Continuation {
       const Vector turned = next ? tangent_of(*next) : Vector();
       if (!next || turned.dot(tangent_) < most_turn) {
         step *= 0.5;
-        if (step > shortest) continue;
+        if (step > shortest && !is_stopped_) continue;
         end_without_neighbour(branch);
-        return branch;
+        return;
       }
       find_bifurcations(branch, *next, turned, step);
       const double parameter = parameter_of(next->point);
       if (parameter < options_.low || parameter > options_.high) {
         end_at(branch, parameter < options_.low ? options_.low : options_.high);
-        return branch;
+        return;
       }
       branch.points.push_back({parameter, next->orbit});
       if (next->orbit.period > options_.longest_period * branch.points.front().orbit.period) {
         branch.end = BranchEnd::endless_period;
-        return branch;
+        return;
       }
       go_on_from(branch, *next, turned);
       if (step < slow_going) {
         end_without_neighbour(branch);
-        return branch;
+        return;
       }
       if (next->steps <= 4) step = std::min(2.0 * step, options_.longest_step);
     }
     branch.end = BranchEnd::point_limit;
-    return branch;
   }
-
- private:
-  static constexpr std::size_t phases = 4;
-  static constexpr double shortest = 1e-9;    // the branch ends at a failing step this short,
-  static constexpr double slow_going = 1e-5;  // or at a converging one
 
   /// A solution with its derivatives.
   struct Solved {
@@ -188,6 +192,11 @@ class Continuation {
     PeriodicOrbit orbit;
     int steps = 0;
   };
+
+  bool is_stopped() const {
+    if (!is_stopped_ && options_.progress != nullptr) is_stopped_ = !options_.progress->go_on(0.0);
+    return is_stopped_;
+  }
 
   double parameter_of(const Vector& point) const { return point[size_] * parameter_scale_; }
 
@@ -219,6 +228,7 @@ class Continuation {
   }
 
   std::optional<Evaluated> evaluate(const Vector& point) const {
+    if (is_stopped()) return std::nullopt;
     const double parameter = parameter_of(point);
     const Vector unknowns = point.head(size_) * scale_;
     const PreparedSystem system(family_(parameter));
@@ -333,7 +343,7 @@ class Continuation {
       const double here = measure(*solved);
       ((here < 0.0) == (before.measure < 0.0) ? before : after) = {middle, here};
     }
-    if (!nearest) return;
+    if (!nearest || is_stopped_) return;
     const double share = before.measure / (before.measure - after.measure);
     const double along = before.along + share * (after.along - before.along);
     const auto solved = corrected(point_ + along * tangent_, tangent_);
@@ -386,6 +396,7 @@ class Continuation {
   }
 
   void end_without_neighbour(Branch& branch) const {
+    if (is_stopped_) return;
     const BranchPoint& last = branch.points.back();
     const Clearance clearance = clearance_of(family_(last.parameter), last.orbit);
     constexpr double near = 1e-2;
@@ -401,6 +412,7 @@ class Continuation {
   double parameter_scale_ = 1.0;
   Vector point_;
   Vector tangent_;
+  mutable bool is_stopped_ = false;
 };
 
 }  // namespace

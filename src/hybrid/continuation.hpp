@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "gearlash/progress.hpp"
 #include "hybrid/periodic_orbit.hpp"
 #include "hybrid/system_slopes.hpp"
 
@@ -38,6 +39,7 @@ enum class BranchEnd {
   endless_period,  ///< the period has grown by `longest_period`: the orbit nears one of infinite
                    ///< period, from a rest back to it, as where hunting ends
   point_limit,     ///< the requested number of points is reached
+  stopped,         ///< by the progress
   lost             ///< Newton's method finds no neighbour, for an unknown reason
 };
 
@@ -56,6 +58,7 @@ struct ContinuationOptions {
   double longest_step = 0.1;      ///< largest number of the orbit, count as 1
   double longest_period = 100.0;  ///< times that of the first orbit
   std::size_t most_points = 500;
+  Progress* progress = nullptr;  ///< asked at each of Newton's steps; nullptr: nothing stops it
 };
 
 /// Pseudo-arclength continuation (Keller 1977). Let z be the starts of an orbit's phases and the

@@ -31,9 +31,9 @@ const drive::FoundCycle* lost_cycle(const Analysis& here, const Analysis& there)
 
 /// Those of one side that the other does not have, followed across the border.
 Border end_of_lost_cycle(const DriveAlong& drive, const AnalysedValue& here,
-                         const AnalysedValue& there, double to) {
+                         const AnalysedValue& there, double to, Progress& progress) {
   const drive::FoundCycle* cycle = lost_cycle(here.analysis, there.analysis);
-  return cycle == nullptr ? Border{} : end_of_cycle(drive, *cycle, here.value, to);
+  return cycle == nullptr ? Border{} : end_of_cycle(drive, *cycle, here.value, to, progress);
 }
 
 bool has_rest(const Analysis& analysis) {
@@ -72,7 +72,7 @@ const char* name_of(BorderKind kind) {
 }
 
 Border border_between(const DriveAlong& drive, const AnalysedValue& met, const AnalysedValue& unmet,
-                      double far) {
+                      double far, Progress& progress) {
   const double width =
       std::abs(unmet.value - met.value) / std::max(std::abs(unmet.value), std::abs(met.value));
   Border border{.end = met.value, .at = met.value, .located = width};
@@ -82,10 +82,10 @@ Border border_between(const DriveAlong& drive, const AnalysedValue& met, const A
     return border;
   }
   // The one that misses the target, else one that meets it and ends at the border.
-  Border found = end_of_lost_cycle(drive, unmet, met, met.value - (far - met.value));
+  Border found = end_of_lost_cycle(drive, unmet, met, met.value - (far - met.value), progress);
   if (found.kind == BorderKind::unnamed) {
     constexpr double near = 0.01;
-    found = end_of_lost_cycle(drive, met, unmet, far);
+    found = end_of_lost_cycle(drive, met, unmet, far, progress);
     if (std::abs(found.at - met.value) > near * std::abs(met.value)) found = {};
   }
   if (found.kind != BorderKind::unnamed) {

@@ -18,6 +18,6 @@ struct AnalysedValue {
 /// as far as `far`, but no more than 1 % beyond the border. `met`: the last value that meets the
 /// target; `unmet`: one beyond.
 Border border_between(const DriveAlong& drive, const AnalysedValue& met, const AnalysedValue& unmet,
-                      double far);
+                      double far, Progress& progress);
 
 }  // namespace gearlash

@@ -44,6 +44,7 @@ class AnalysedDrives {
   /// nearest may not have closed the cycle. Empty if there is none, or it meets the target.
   std::optional<Border> border_at(double end, bool upwards, double far) {
     std::optional<Border> first;
+    Hearing hearing(*this);
     const auto at_end = known_.find(end);
     if (at_end == known_.end()) return first;
     auto beyond = at_end;
@@ -53,7 +54,7 @@ class AnalysedDrives {
       const bool is_near = upwards ? beyond->first <= far : beyond->first >= far;
       if (!is_near || !there.is_known || there.is_met) break;
       const Border border = border_between(drive_, {end, *at_end->second.analysis},
-                                           {beyond->first, *there.analysis}, far);
+                                           {beyond->first, *there.analysis}, far, hearing);
       if (!first) first = border;
       if (border.kind == BorderKind::unnamed || border.kind == BorderKind::rest) continue;
       return border;

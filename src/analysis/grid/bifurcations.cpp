@@ -125,10 +125,12 @@ struct BranchTip {
 
 class Chains {
  public:
-  Chains(const Drive& drive, const Axis& axis, const std::vector<std::optional<Analysis>>& values)
+  Chains(const Drive& drive, const Axis& axis, const std::vector<std::optional<Analysis>>& values,
+         SharedProgress& progress)
       : axis_(axis),
         drive_(drives_along(axis, drive)),
-        following_(drive, axis),
+        progress_(progress),
+        following_(drive, axis, progress),
         columns_(values.size()) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (!values[i] || !values[i]->search) continue;
@@ -139,12 +141,12 @@ class Chains {
     }
   }
 
-  void follow(SharedProgress& progress) {
-    for (std::size_t i = 0; i + 1 < columns_.size() && !progress.is_stopped(); ++i) {
+  void follow() {
+    for (std::size_t i = 0; i + 1 < columns_.size() && !progress_.is_stopped(); ++i) {
       for (std::size_t k = 0; k < columns_[i].size(); ++k) follow_up(i, k);
-      progress.finish(1);
+      progress_.finish(1);
     }
-    for (std::size_t i = columns_.size() - 1; i > 0 && !progress.is_stopped(); --i) {
+    for (std::size_t i = columns_.size() - 1; i > 0 && !progress_.is_stopped(); --i) {
       for (std::size_t k = 0; k < columns_[i].size(); ++k) {
         if (!columns_[i][k].has_previous) follow_down(i, k);
       }
@@ -221,7 +223,7 @@ class Chains {
     const double to = is_upper ? *std::upper_bound(values.begin(), values.end(), from)
                                : *std::prev(std::lower_bound(values.begin(), values.end(), from));
     return {.point = point_of(last),
-            .border = end_of_cycle(drive_, last.cycle, from, to),
+            .border = end_of_cycle(drive_, last.cycle, from, to, progress_),
             .is_upper = is_upper,
             .branch = branch};
   }
@@ -234,7 +236,7 @@ class Chains {
       if (here.stability != branch.stability) {
         const CycleAt last = branch.points.back();
         const Border border =
-            end_of_cycle(drive_, chain[i - 1].cycle, last.parameter, here.parameter);
+            end_of_cycle(drive_, chain[i - 1].cycle, last.parameter, here.parameter, progress_);
         const bool is_named = border.kind != BorderKind::unnamed;
         const double parameter = is_named ? border.at : 0.5 * (last.parameter + here.parameter);
         const CycleAt there = point_between(last, here, parameter);
@@ -340,6 +342,7 @@ class Chains {
 
   const Axis& axis_;
   DriveAlong drive_;
+  SharedProgress& progress_;
   CycleFollowing following_;
   std::vector<Column> columns_;
 };
@@ -507,8 +510,8 @@ BifurcationDiagram bifurcations_of(const Drive& drive, const Axis& axis, Progres
                                    .motor_amplitude = motion.motor_amplitude.value_or(NAN)});
     }
   }
-  Chains chains(drive, axis, values);
-  chains.follow(shared);
+  Chains chains(drive, axis, values, shared);
+  chains.follow();
   chains.write(diagram);
   ClosedBranches closed(diagram);
   for (std::size_t i = 0; i < count; ++i) {

@@ -30,7 +30,7 @@ BorderKind kind_of(hybrid::BifurcationKind kind) {
 
 /// end_of_cycle() while the drive is sound.
 Border followed_end_of_cycle(const DriveAlong& drive, const drive::FoundCycle& cycle, double from,
-                             double to) {
+                             double to, Progress& progress) {
   const hybrid::Family family = [&](double value) {
     const Drive changed = drive(value);
     require_none(faults(changed));
@@ -41,8 +41,10 @@ Border followed_end_of_cycle(const DriveAlong& drive, const drive::FoundCycle& c
                                       .upwards = from < to,
                                       .first_step = 1e-5,
                                       .longest_step = 0.02,
-                                      .most_points = 120};
+                                      .most_points = 120,
+                                      .progress = &progress};
   const hybrid::Branch branch = continue_orbit(family, from, cycle.orbit, options);
+  if (branch.end == hybrid::BranchEnd::stopped) return {};
   if (!branch.bifurcations.empty()) {
     const hybrid::Bifurcation& first = branch.bifurcations.front();
     return {.kind = kind_of(first.kind), .at = first.parameter, .located = located_by_branch};
@@ -71,12 +73,12 @@ DriveAlong drives_along(const Axis& axis, const Drive& drive) {
   };
 }
 
-Border end_of_cycle(const DriveAlong& drive, const drive::FoundCycle& cycle, double from,
-                    double to) {
+Border end_of_cycle(const DriveAlong& drive, const drive::FoundCycle& cycle, double from, double to,
+                    Progress& progress) {
   constexpr std::size_t most_events = 400;  // more take minutes to follow
   if (cycle.orbit.events.empty() || cycle.orbit.events.size() > most_events) return {};
   try {
-    return followed_end_of_cycle(drive, cycle, from, to);
+    return followed_end_of_cycle(drive, cycle, from, to, progress);
   } catch (const InvalidInput&) {
     return {};  // the drive is unsound on the way
   }
@@ -126,7 +128,7 @@ FollowedWay CycleFollowing::to(const FollowedCycle& from, double parameter) cons
   FollowedCycle last = from;
   double share = 0.0;
   double length = 1.0;
-  while (share < 1.0 && length >= shortest) {
+  while (share < 1.0 && length >= shortest && progress_.go_on(0.0)) {
     const bool is_last = share + length >= 1.0;
     const double next = is_last ? 1.0 : share + length;
     std::optional<FollowedCycle> found =

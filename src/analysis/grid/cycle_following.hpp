@@ -25,13 +25,15 @@ struct FollowedWay {
 
 class CycleFollowing {
  public:
-  CycleFollowing(const Drive& drive, const Axis& axis) : drive_(drive), axis_(axis) {}
+  CycleFollowing(const Drive& drive, const Axis& axis, Progress& progress)
+      : drive_(drive), axis_(axis), progress_(progress) {}
 
   FollowedCycle known(double parameter, const drive::AttractorSearch& search,
                       const drive::FoundCycle& cycle) const;
 
   /// By Newton's method in steps that are halved where it fails, down to 1/512 of the way. A cycle
-  /// whose amplitudes differ by more than a quarter from the last one's is another.
+  /// whose amplitudes differ by more than a quarter from the last one's is another. Lost where it is
+  /// stopped.
   FollowedWay to(const FollowedCycle& from, double parameter) const;
 
  private:
@@ -39,6 +41,7 @@ class CycleFollowing {
 
   const Drive& drive_;
   const Axis& axis_;
+  Progress& progress_;
 };
 
 /// The drives along a line, one for each number; called from several threads at a time.
@@ -49,9 +52,9 @@ DriveAlong drives_along(const Axis& axis, const Drive& drive);
 /// Where a cycle that exists at `from` ends or changes its stability, on the way to `to`, by
 /// continue_orbit(): to 1e-9 of the value, to 1e-4 where it grazes. Unnamed if it does neither, if
 /// the reason is unknown, or if the drive is unsound on the way. A cycle of more than 400 events is
-/// not followed.
-Border end_of_cycle(const DriveAlong& drive, const drive::FoundCycle& cycle, double from,
-                    double to);
+/// not followed. Unnamed too if it is stopped.
+Border end_of_cycle(const DriveAlong& drive, const drive::FoundCycle& cycle, double from, double to,
+                    Progress& progress);
 
 /// Whether two cycles of one drive are the same to the accuracy of Newton's method.
 bool is_same_cycle(const drive::FoundCycle& one, const drive::FoundCycle& other);

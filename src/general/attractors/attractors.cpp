@@ -113,9 +113,9 @@ class Search {
 
   /// A short first motion, which shows the magnitude of the numbers: that of the middle start, or
   /// of the next one that moves. Where nothing moves, a number may be nothing but rounding.
-  std::optional<Trajectory> glance() const {
+  std::optional<Trajectory> glance() {
     const std::size_t count = starts_.size();
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < count && goes_on(); ++i) {
       Trajectory motion = glance_from(starts_[(count / 2 + i) % count]);
       if (moves(motion)) return motion;
     }
@@ -126,7 +126,8 @@ class Search {
     return simulate(unscaled_.system, unscaled_.start(start),
                     {.until = budget_.glance_swings * unscaled_.swing_time,
                      .event_limit = budget_.glance_events,
-                     .step_limit = steps_kept(unscaled_, budget_)});
+                     .step_limit = steps_kept(unscaled_, budget_),
+                     .progress = &progress_});
   }
 
   bool moves(const Trajectory& motion) const {

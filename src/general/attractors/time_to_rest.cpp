@@ -89,7 +89,10 @@ std::optional<double> last_time_outside(double band, double final, const Watch& 
     // Its ticks are too many to be kept: only those are about which the load enters the band.
     const auto followed = [&](double until, hybrid::MotionObserver& observer) {
       return observe(setting.system, mark.here,
-                     {.from = mark.time, .until = until, .event_limit = watch.events + 1},
+                     {.from = mark.time,
+                      .until = until,
+                      .event_limit = watch.events + 1,
+                      .progress = watch.progress},
                      observer);
     };
     LastOutside seen(band, final, setting.load);
@@ -107,9 +110,13 @@ std::optional<double> last_time_outside(double band, double final, const Watch& 
   double from = mark.time;
   double length = is_over ? most - from : setting.swing_time;
   while (from < most) {
-    const Trajectory motion = simulate(
-        setting.system, here, {.from = from, .until = from + length, .step_limit = step_limit});
-    if (!(motion.end_time() > from)) return std::nullopt;
+    const Trajectory motion = simulate(setting.system, here,
+                                       {.from = from,
+                                        .until = from + length,
+                                        .step_limit = step_limit,
+                                        .progress = watch.progress});
+    const bool is_stopped = motion.stop_reason() == hybrid::StopReason::stopped;
+    if (is_stopped || !(motion.end_time() > from)) return std::nullopt;
     here = motion.end();
     from = motion.end_time();
     const std::vector<Sample> all = rough_samples(motion, setting.load);

@@ -46,7 +46,7 @@ TEST(OracleBorder, AtAFoldTheCycleHasAMultiplierOfOneAndNoneIsBeyond) {
         along.motor.friction.coulomb = coulomb;
         return along;
       },
-      {0.0081, rests}, {0.0078, hunts}, 0.007);
+      {0.0081, rests}, {0.0078, hunts}, 0.007, no_progress());
   EXPECT_EQ(fold.kind, BorderKind::fold);
   EXPECT_LE(fold.located, 1e-9);
   EXPECT_GT(fold.at, 0.0078);

@@ -119,6 +119,7 @@ FollowedStart follow_rest(const Drive& drive, const Answer& answer, const StartO
   Window late = window_of(motion, began, until, count);
   subtract_ramp(drive, late);
   const Bounds load = extremes_of(late.load);
+  result.amplitude = 0.5 * width_of(load);
   constexpr double rounding = 1.001;
   if (width_of(load) > 2.0 * band * rounding) {
     result.contradiction =
@@ -232,11 +233,13 @@ FollowedStart follow_with_time(const Drive& drive, const Answer& answer, const S
 /// A rounding may lead it to another motion of the list, or a small displacement to its own.
 bool is_near_border(const Drive& drive, const Answer& answer, const StartOutcome& start,
                     const FollowedStart& followed, const FollowOptions& options) {
-  const auto is_other = [&](const auto& motion) {
-    return std::abs(followed.amplitude - motion.amplitude) <= options.share * motion.amplitude;
+  const auto is_within = [&](double share) {
+    return [share, &followed](const auto& motion) {
+      return std::abs(followed.amplitude - motion.amplitude) <= share * motion.amplitude;
+    };
   };
-  if (start.end != "rest" && (std::ranges::any_of(answer.cycles, is_other) ||
-                              std::ranges::any_of(answer.irregular, is_other))) {
+  if (std::ranges::any_of(answer.cycles, is_within(options.share)) ||
+      std::ranges::any_of(answer.irregular, is_within(options.irregular_share))) {
     return true;
   }
   for (const double side : {-1.0, 1.0}) {
