@@ -107,7 +107,13 @@ ScoredStart scored_start(const StartOutcome& start, const Answer& answer, const 
   // The extremes of slow irregular motion need many of its periods.
   constexpr double periods = 200.0;
   if (scored.frequency > 0.0) {
-    whole.longest_time = std::max(whole.longest_time, periods / scored.frequency);
+    constexpr double most = 10.0;  // times the longest time: its trace has half a gigabyte
+    const double needed = periods / scored.frequency;
+    if (needed > most * whole.longest_time) {
+      scored.agreement = Agreement::no_measure;
+      return scored;
+    }
+    whole.longest_time = std::max(whole.longest_time, needed);
   }
   EndingOptions half = whole;
   half.longest_step *= 0.5;

@@ -19,7 +19,7 @@ enum class Agreement {
   right_of_other_size,  ///< both hunt, by amplitudes that agree to the share of irregular motion
   wrong,
   undecided,   ///< by the library
-  no_measure,  ///< the simulator disagrees with itself at half the step, or is unclear
+  no_measure,  ///< the simulator disagrees with itself at half the step, or is unclear, or a motion is too slow for it
 };
 
 [[nodiscard]] const char* name_of(Agreement agreement);
