@@ -327,7 +327,8 @@ struct Answer {
   bool neutral_swings = false;  ///< some cycles could not be separated from their neighbors
   std::vector<Cycle> cycles{};  ///< by falling amplitude; from a search, stable ones first
   std::optional<Rest> rest{};   ///< empty if it is not known to rest
-  std::vector<IrregularMotion> irregular{};  ///< on which no cycle was closed
+  /// On which no cycle was closed, by falling amplitude; those of the motor alone come last.
+  std::vector<IrregularMotion> irregular{};
   /// Whether hunting of at most `steps_of_quantization` is quantization: without the encoder's
   /// steps the starts that hunt, of which up to three are followed, come to rest. Empty if not
   /// wanted, not decided, or for other motion.

@@ -130,9 +130,7 @@ class Simulation {
     const bool stands = standing_->stands_clear();
     if (repeating_->pass_over(stands)) return true;
     if (stands && !repeating_->is_young()) stood_ += standing_->stand();
-    if (count() < options_.event_limit) return false;
-    stop(StopReason::event_limit);
-    return true;
+    return false;
   }
 
   // ---- steps and events -------------------------------------------------------------------------

@@ -19,12 +19,7 @@ struct Seen {
 
 Seen seen_in(const Answer& answer) {
   if (const Cycle* cycle = answer.largest_stable()) return {cycle, nullptr};
-  const auto by_amplitude = [](const IrregularMotion& a, const IrregularMotion& b) {
-    return a.amplitude < b.amplitude;
-  };
-  const auto largest =
-      std::max_element(answer.irregular.begin(), answer.irregular.end(), by_amplitude);
-  return {nullptr, largest == answer.irregular.end() ? nullptr : &*largest};
+  return {nullptr, answer.irregular.empty() ? nullptr : &answer.irregular.front()};
 }
 
 bool is_quiet(const Answer& answer) {

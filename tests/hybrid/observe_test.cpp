@@ -106,7 +106,6 @@ TEST(Observe, StopsStandingAtTheTickThatBreaksAway) {
   EXPECT_GT(after.end.numbers[1], 0.0);
 }
 
-/// Ticks that change nothing are passed over, however many they are.
 /// Its integral decays by 1e-4 of itself at each tick, so that no two changes are alike. Ten such
 /// ticks count as an event.
 TEST(Observe, AnEndlessStandstillOfTicksThatDifferEndsByItsEvents) {
@@ -121,6 +120,7 @@ TEST(Observe, AnEndlessStandstillOfTicksThatDifferEndsByItsEvents) {
   EXPECT_LT(observed.time, 50.0);
 }
 
+/// Ticks that change nothing are passed over, however many they are.
 TEST(Observe, PassesOverTicksThatChangeNothing) {
   const PreparedSystem system(stuck_mass(1e-6, 0.0, 0.8));
   Kept kept;

@@ -27,6 +27,24 @@ TEST(Ends, AStandingLoadWhoseMotorCrossesTheGapHunts) {
   EXPECT_NEAR(answer.cycles[0].amplitude, 0.3153, 0.0001);
 }
 
+/// Of several irregular motions every verb names the largest, which is listed first.
+TEST(Ends, TheLargestOfIrregularMotionsIsListedFirst) {
+  const Answer answer = analyse(read_drive(data / "../industrial/rnd08.toml"));
+  ASSERT_GT(answer.irregular.size(), 1U);
+  ASSERT_EQ(answer.largest_stable(), nullptr);
+  double largest = 0.0;
+  for (const IrregularMotion& motion : answer.irregular) {
+    largest = std::max(largest, motion.amplitude);
+  }
+  EXPECT_EQ(answer.irregular.front().amplitude, largest);
+  EXPECT_EQ(answer.value(Quantity::amplitude), largest);
+  for (const StartOutcome& start : answer.search->starts) {
+    if (start.end != "irregular") continue;
+    ASSERT_TRUE(start.which);
+    EXPECT_LT(*start.which, answer.irregular.size());
+  }
+}
+
 /// The reading is two counts off, as far as the dead band reaches: nothing is integrated.
 TEST(Ends, ADeadBandOfWholeCountsIsComparedInCounts) {
   const Answer answer = answer_of("dead-band-of-two-counts");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "general/attractors/cycle_closing.hpp"
@@ -238,32 +239,42 @@ class Search {
     for (std::size_t i = 0; i < verdicts_.size(); ++i) record(starts_[i], verdicts_[i]);
   }
 
-  /// Sorts the cycles: stable ones first, by falling amplitude. Removes the scale from their
-  /// orbits.
+  /// Sorts motions by falling amplitude; stable cycles come before others, and motions of the
+  /// motor alone last. Removes the scale from the orbits.
   void finish() {
-    std::vector<std::size_t> order(result_.cycles.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      const FoundCycle& one = result_.cycles[a];
-      const FoundCycle& other = result_.cycles[b];
-      if (one.stability != other.stability) return one.stability < other.stability;
-      return one.amplitude > other.amplitude;
+    for (FoundCycle& cycle : result_.cycles) {
+      cycle.orbit = unscaled(cycle.orbit, setting_.frame.scale);
+    }
+    const std::vector<std::size_t> place = sort(result_.cycles, MotionEnd::cycle, [](auto& one) {
+      return std::pair(one.stability, -one.amplitude);
     });
-    std::vector<FoundCycle> sorted;
-    std::vector<std::size_t> place(order.size());
-    for (const std::size_t i : order) {
-      place[i] = sorted.size();
-      sorted.push_back(result_.cycles[i]);
-      sorted.back().orbit = unscaled(sorted.back().orbit, setting_.frame.scale);
-    }
-    result_.cycles = std::move(sorted);
-    for (Outcome& outcome : result_.outcomes) {
-      if (outcome.end == MotionEnd::cycle) outcome.which = place[outcome.which];
-    }
     for (Edge& edge : result_.edges) {
       if (edge.cycle) edge.cycle = place[*edge.cycle];
     }
+    sort(result_.irregular, MotionEnd::irregular, [](auto& one) {
+      return std::pair(one.is_motor_alone,
+                       one.is_motor_alone ? -one.motor_amplitude : -one.amplitude);
+    });
     take_for_cycles(result_, tolerances_.cycle);
+  }
+
+  /// Sorts motions in which starts end by a rising key; gives the new place of each.
+  template <class Found, class Key>
+  std::vector<std::size_t> sort(std::vector<Found>& motions, MotionEnd end, const Key& key) {
+    std::vector<std::size_t> order(motions.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return key(motions[i]); });
+    std::vector<Found> sorted;
+    std::vector<std::size_t> place(order.size());
+    for (const std::size_t i : order) {
+      place[i] = sorted.size();
+      sorted.push_back(std::move(motions[i]));
+    }
+    motions = std::move(sorted);
+    for (Outcome& outcome : result_.outcomes) {
+      if (outcome.end == end) outcome.which = place[outcome.which];
+    }
+    return place;
   }
 
   // ---- edges ------------------------------------------------------------------------------------

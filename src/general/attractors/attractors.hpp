@@ -126,7 +126,7 @@ struct AttractorSearch {
   hybrid::HybridSystem system;     ///< with settled signals, positions from the reference
   std::vector<FoundCycle> cycles;  ///< stable ones first, by falling amplitude
   std::optional<RestFound> rest;
-  std::vector<IrregularFound> irregular;
+  std::vector<IrregularFound> irregular;  ///< by falling amplitude; of the motor alone last
   std::vector<Outcome> outcomes;  ///< of every start, in order
   std::vector<Edge> edges;
   std::vector<FoundThreshold> thresholds;
