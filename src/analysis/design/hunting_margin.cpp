@@ -331,21 +331,22 @@ HuntingMargin hunting_margin(const Drive& drive, Progress& progress) {
 HuntingMargin hunting_margin(const Drive& drive, const std::vector<Axis>& axes,
                              Progress& progress) {
   require_none(faults(drive));
-  const std::size_t parts = axes.size() + 1;
+  const std::size_t parts = axes.size() + 2;
   HuntingMargin margin;
-  const Answer present = analyse(drive, wanted_for(always_at_rest(), drive), progress);
+  ProgressPart first(progress, 0, parts);
+  const Answer present = analyse(drive, wanted_for(always_at_rest(), drive), first);
   margin.hunts = !is_met(always_at_rest(), present);
   margin.is_known = is_known(always_at_rest(), present);
   margin.stopped = present.search && !present.search->is_complete;
   for (const Axis& axis : axes) {
     if (margin.stopped) break;
-    ProgressPart part(progress, margin.parameters.size(), parts);
+    ProgressPart part(progress, margin.parameters.size() + 1, parts);
     margin.parameters.push_back(
         searched_margin(drive, axis, margin.hunts || !margin.is_known, part));
     margin.stopped = margin.parameters.back().stopped;
   }
   if (margin.stopped || !margin.is_known) return margin;
-  ProgressPart last(progress, axes.size(), parts);
+  ProgressPart last(progress, parts - 1, parts);
   margin.combined = combined_margin(drive, axes, margin.parameters, margin.hunts, last);
   margin.stopped = !progress.go_on(1.0);
   return margin;

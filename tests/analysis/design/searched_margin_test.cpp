@@ -185,8 +185,7 @@ TEST(EdgeSearchedMargin, OfOneParameterIsTheLeastChangeWhereNoneCombinedIsLess) 
 
 TEST(EdgeSearchedMargin, CanBeStopped) {
   struct : Progress {
-    bool go_on(double, std::size_t) override { return ++calls < 60; }
-    int calls = 0;
+    bool go_on(double share, std::size_t) override { return share < 0.5; }
   } stop;
   const HuntingMargin margin =
       hunting_margin(pd_drive(), {logarithmic("controller.proportional", 0.2, 20.0, 9)}, stop);

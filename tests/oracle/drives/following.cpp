@@ -42,6 +42,13 @@ bool is_on_ramp(const Drive& drive) {
   return drive.reference && std::holds_alternative<RampSignal>(*drive.reference);
 }
 
+/// Empty if it moves.
+std::optional<double> constant_reference(const Drive& drive) {
+  if (!drive.reference) return 0.0;
+  const auto* constant = std::get_if<double>(&*drive.reference);
+  return constant != nullptr ? std::optional(*constant) : std::nullopt;
+}
+
 void subtract_ramp(const Drive& drive, Window& window) {
   if (!is_on_ramp(drive)) return;
   const auto& ramp = std::get<RampSignal>(*drive.reference);
@@ -135,6 +142,9 @@ FollowedStart follow_rest(const Drive& drive, const Answer& answer, const StartO
   }
   if (result.followed > 2.0 && start.time_to_rest && !is_on_ramp(drive)) {
     result.time_to_rest = last_time_outside(motion, until, band);
+    if (const auto reference = constant_reference(drive)) {
+      result.place = motion.at(until).shafts.load_position - *reference;
+    }
   }
   return result;
 }
@@ -230,7 +240,18 @@ FollowedStart follow_with_time(const Drive& drive, const Answer& answer, const S
   return followed;
 }
 
-/// A rounding may lead it to another motion of the list, or a small displacement to its own.
+/// Whether it rests at another place of those that are listed than the search saw.
+bool rests_elsewhere(const Answer& answer, const StartOutcome& start,
+                     const FollowedStart& followed) {
+  if (!followed.place || !start.rest || !answer.rest || !answer.rest->time) return false;
+  const double band = answer.rest->time->band;
+  const Bounds& all = answer.rest->load;
+  constexpr double near = 1e-3;
+  return std::abs(*followed.place - start.rest->load) > start.rest->uncertainty.value_or(0.0) + near * band &&
+         *followed.place >= all.low - band && *followed.place <= all.high + band;
+}
+
+/// A rounding may lead it to another end of the list, or a small displacement to its own.
 bool is_near_border(const Drive& drive, const Answer& answer, const StartOutcome& start,
                     const FollowedStart& followed, const FollowOptions& options) {
   const auto is_within = [&](double share) {
@@ -242,6 +263,7 @@ bool is_near_border(const Drive& drive, const Answer& answer, const StartOutcome
       std::ranges::any_of(answer.irregular, is_within(options.irregular_share))) {
     return true;
   }
+  if (start.end == "rest" && rests_elsewhere(answer, start, followed)) return true;
   for (const double side : {-1.0, 1.0}) {
     StartOutcome beside = start;
     const double way = side * options.border * drive.gearbox.backlash;
@@ -256,9 +278,8 @@ void follow_pieces(const Drive& drive, const Answer& answer, FollowedDrive& resu
   const bool is_rigid = std::holds_alternative<RigidContact>(drive.contact);
   if (!answer.rest || !is_rigid || !holds_at_once(drive)) return;
   const Drive searched = as_searched(drive);
-  const auto* constant = searched.reference ? std::get_if<double>(&*searched.reference) : nullptr;
-  if (searched.reference && constant == nullptr) return;
-  const double reference = constant != nullptr ? *constant : 0.0;
+  const std::optional<double> reference = constant_reference(searched);
+  if (!reference) return;
   for (const RestPiece& piece : answer.rest->pieces) {
     const double width = piece.load.high - piece.load.low;
     if (!(width > 0.0)) continue;
@@ -267,12 +288,12 @@ void follow_pieces(const Drive& drive, const Answer& answer, FollowedDrive& resu
       const double end = way < 0.0 ? piece.load.low : piece.load.high;
       const double inside = end - way * 1e-6 * width;
       const double beyond = end + way * 0.01 * width;
-      if (!stays(searched, reference + inside, 1e-3 * width)) {
+      if (!stays(searched, *reference + inside, 1e-3 * width)) {
         result.contradictions.push_back(
             text("piece of rest: from its end at %.9g rad (width %.3g) it leaves", end, width));
       }
       if (!is_in_another(*answer.rest, piece, beyond) &&
-          stays(searched, reference + beyond, 1e-3 * width)) {
+          stays(searched, *reference + beyond, 1e-3 * width)) {
         result.contradictions.push_back(text(
             "piece of rest: 1 %% beyond its end at %.9g rad (width %.3g) it stays", end, width));
       }

@@ -17,8 +17,8 @@ struct FollowOptions {
   std::size_t most_events = 1'000'000;  ///< of a motion, clock ticks included
   double share = 0.02;                  ///< permitted difference of amplitudes, or an encoder step
   double irregular_share = 0.2;  ///< likewise of irregular motion, besides twice its deviation
-  /// A start that contradicts is near a border if it leads to another motion of the list, or one
-  /// this share of the gap from it does not contradict.
+  /// A start that contradicts is near a border if it leads to another end of the list, or one this
+  /// share of the gap from it does not contradict.
   double border = 1e-3;
 };
 
@@ -29,6 +29,8 @@ struct FollowedStart {
   /// s, the last time at which the load was outside the answer's band about its final position; of
   /// a start called rest that was followed twice as long at least.
   std::optional<double> time_to_rest{};
+  /// rad, where its load is then, from a reference that does not move.
+  std::optional<double> place{};
 };
 
 [[nodiscard]] FollowedStart follow(const Drive& drive, const Answer& answer,
