@@ -70,7 +70,8 @@ struct RestFound {
 struct IrregularFound {
   double amplitude = 0.0;        ///< rad, half the peak-to-peak of the load
   double motor_amplitude = 0.0;  ///< rad, of the motor
-  double center = 0.0;           ///< rad, of the load, from the reference
+  double center = 0.0;           ///< rad, of the load's extremes, from the reference
+  double mean_center = 0.0;      ///< rad, of the middles of its swings: known better
   /// Within the gap, while the load hardly moves. Swings and periods are then the motor's.
   bool is_motor_alone = false;
   double period = 0.0;  ///< s, mean, from one passing of the center upwards to the next

@@ -68,6 +68,15 @@ Spread spread_of_periods(const std::vector<double>& passings) {
   return spread_of(periods);
 }
 
+/// Of the middles of swings.
+double mean_middle(const std::vector<Sample>& turns) {
+  std::vector<double> middles;
+  for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
+    middles.push_back(0.5 * (turns[i].value + turns[i + 1].value));
+  }
+  return spread_of(middles).mean;
+}
+
 Spread spread_of_half_swings(const std::vector<Sample>& turns) {
   std::vector<double> half_swings;
   for (std::size_t i = 0; i + 1 < turns.size(); ++i) half_swings.push_back(0.5 * swing(turns, i));
@@ -107,6 +116,7 @@ Irregularity irregularity_of(const Watch& watch, const Stretch& stretch,
   found.amplitude = 0.5 * range.width();
   found.motor_amplitude = 0.5 * extent_of(of_motor).width();
   found.center = range.middle();
+  found.mean_center = found.is_motor_alone ? found.center : mean_middle(turns);
   found.watched = stretch.to - from;
   const double middle = extent_of(last).middle();
   const Spread period = spread_of_periods(
@@ -322,8 +332,9 @@ std::size_t place_among(const std::vector<IrregularFound>& known, const Irregula
   const double extent = std::max(found.amplitude, found.motor_amplitude);
   const auto same = std::find_if(known.begin(), known.end(), [&](const IrregularFound& one) {
     // If the motor hunts alone, the load may stand anywhere.
-    const bool is_centered =
-        found.is_motor_alone || agree(one.center, found.center, extent, tolerances.same_ranges);
+    const auto is_centered = [&](double apart) {
+      return found.is_motor_alone || agree(one.mean_center, found.mean_center, extent, apart);
+    };
     // Its mean swings are better known than its extremes, which are larger the longer it is
     // watched.
     const double close = tolerances.steady_statistics;
@@ -334,8 +345,9 @@ std::size_t place_among(const std::vector<IrregularFound>& known, const Irregula
         (found.is_motor_alone ||
          agree(one.motor_amplitude, found.motor_amplitude, extent, share)) &&
         agree(one.half_swing, found.half_swing, extent, share);
-    return one.is_motor_alone == found.is_motor_alone && is_centered &&
-           (has_same_means || has_same_extremes);
+    return one.is_motor_alone == found.is_motor_alone &&
+           ((has_same_means && is_centered(tolerances.wandering)) ||
+            (has_same_extremes && is_centered(tolerances.same_ranges)));
   });
   return static_cast<std::size_t>(same - known.begin());
 }

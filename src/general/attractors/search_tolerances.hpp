@@ -105,6 +105,9 @@ struct IrregularTolerances {
   /// a motor that hunts alone, and the extremes of swings that scatter and their middle, may differ
   /// by it too.
   double same_ranges = 0.15;
+  /// Middles of motions with the same means may differ by this share of the amplitude: integral
+  /// action moves them slowly to and fro.
+  double wandering = 0.3;
   /// Swings that repeat to this share may be a cycle ...
   double repeating = 1e-3;
   /// ... and to this share they need not be many to be steady.
