@@ -85,10 +85,14 @@ Agreement agreement_of(const ScoredStart& scored, const Ending& ending, const Pl
     return ending.kind == EndKind::runs_away ? Agreement::right : Agreement::wrong;
   }
   if (rests && rests_engaged) return Agreement::right;  // small disturbances leave that rest
-  const Ending stated{.kind = EndKind::hunts,
-                      .amplitude = scored.amplitude,
-                      .motor_amplitude = scored.motor_amplitude};
+  Ending stated{.kind = EndKind::hunts,
+                .amplitude = scored.amplitude,
+                .motor_amplitude = scored.motor_amplitude};
   if (agree(stated, ending, drive, share)) return Agreement::right;
+  // A headline has the amplitude of the load. Extremes of irregular motion grow with the time that
+  // it is watched, those of the motor within the gap above all.
+  const bool load_swings = scored.amplitude > 0.1 * scored.motor_amplitude;
+  if (end == "irregular" && load_swings) stated.motor_amplitude = ending.motor_amplitude;
   return agree(stated, ending, drive, irregular_share) ? Agreement::right_of_other_size
                                                        : Agreement::wrong;
 }
