@@ -97,6 +97,22 @@ Agreement agreement_of(const ScoredStart& scored, const Ending& ending, const Pl
                                                        : Agreement::wrong;
 }
 
+bool is_right(Agreement agreement) {
+  return agreement == Agreement::right || agreement == Agreement::right_as_it_fades ||
+         agreement == Agreement::right_of_other_size;
+}
+
+constexpr std::array beside = {-0.01, 0.01};  // of a start
+
+ShaftReadings moved(ShaftReadings start, const PlainDrive& drive, double share) {
+  const double way = share * (start.load_position - drive.reference);
+  start.load_position += way;
+  start.motor_position += way;
+  start.load_speed *= 1.0 + share;
+  start.motor_speed *= 1.0 + share;
+  return start;
+}
+
 ScoredStart scored_start(const StartOutcome& start, const Answer& answer, const PlainDrive& drive,
                          const ScoreOptions& options) {
   ScoredStart scored{.start = start};
@@ -138,6 +154,12 @@ ScoredStart scored_start(const StartOutcome& start, const Answer& answer, const 
     scored.ending_of_half_step = ending_of(drive, shafts, half);
     if (!agree(scored.ending, scored.ending_of_half_step, drive, share)) {
       scored.agreement = Agreement::no_measure;
+    }
+  }
+  for (const double aside : beside) {
+    if (scored.agreement != Agreement::wrong) break;
+    if (is_right(judged(ending_of(drive, moved(shafts, drive, aside), whole)))) {
+      scored.agreement = Agreement::near_border;
     }
   }
   return scored;
@@ -208,15 +230,6 @@ bool is_listed(const Answer& answer, const Ending& ending, const PlainDrive& dri
   return false;
 }
 
-ShaftReadings moved(ShaftReadings start, const PlainDrive& drive, double share) {
-  const double way = share * (start.load_position - drive.reference);
-  start.load_position += way;
-  start.motor_position += way;
-  start.load_speed *= 1.0 + share;
-  start.motor_speed *= 1.0 + share;
-  return start;
-}
-
 std::string text_of(const ShaftReadings& start, const Ending& ending) {
   std::array<char, 300> line{};
   std::snprintf(
@@ -249,9 +262,9 @@ void follow_random_start(const ShaftReadings& start, const Answer& answer, const
     ++random.unclear;
     return;
   }
-  for (const double share : {-0.01, 0.01}) {
-    const Ending beside = ending_of(drive, moved(start, drive, share), options.ending);
-    if (permits(answer, beside.kind)) {
+  for (const double share : beside) {
+    const Ending there = ending_of(drive, moved(start, drive, share), options.ending);
+    if (permits(answer, there.kind)) {
       ++random.near_border;
       return;
     }
@@ -283,6 +296,8 @@ const char* name_of(Agreement agreement) {
       return "WRONG";
     case Agreement::undecided:
       return "undecided";
+    case Agreement::near_border:
+      return "near a border";
     case Agreement::no_measure:
       break;
   }

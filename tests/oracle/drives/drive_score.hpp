@@ -19,7 +19,10 @@ enum class Agreement {
   right_of_other_size,  ///< both hunt, by amplitudes that agree to the share of irregular motion
   wrong,
   undecided,   ///< by the library
-  no_measure,  ///< the simulator disagrees with itself at half the step, or is unclear, or a motion is too slow for it
+  near_border,  ///< wrong, but a start 1 % aside ends in the simulator as the library says
+  /// The simulator disagrees with itself at half the step, or is unclear, or the motion is too slow
+  /// for it.
+  no_measure
 };
 
 [[nodiscard]] const char* name_of(Agreement agreement);

@@ -74,6 +74,7 @@ struct Totals {
   std::vector<double> seconds;
   std::size_t starts = 0, followed = 0, cut_short = 0, times = 0, pieces = 0;
   std::size_t followed_near_border = 0;
+  std::size_t starts_near_border = 0;
   std::size_t random = 0, random_unclear = 0, near_border = 0, unlisted = 0;
 };
 
@@ -130,7 +131,8 @@ void print_drive(const NamedDrive& named, const DriveScore& score, const Followe
               kind_of(named.drive).c_str(), headline(named.drive, score.answer).c_str(),
               score.processor_seconds, score.undecided, all, score.count(Agreement::right));
   for (const Agreement one : {Agreement::right_as_it_fades, Agreement::right_of_other_size,
-                              Agreement::wrong, Agreement::undecided, Agreement::no_measure}) {
+                              Agreement::wrong, Agreement::undecided, Agreement::near_border,
+                              Agreement::no_measure}) {
     if (score.count(one) > 0) std::printf(", %s %zu", name_of(one), score.count(one));
   }
   if (!score.refused.empty()) std::printf(" | not compared: %s", score.refused.c_str());
@@ -152,6 +154,7 @@ void count_in(const std::string& name, const DriveScore& score, const FollowedDr
               Totals& totals) {
   totals.seconds.push_back(score.processor_seconds);
   totals.starts += score.starts.size();
+  totals.starts_near_border += score.count(Agreement::near_border);
   totals.followed += followed.starts;
   totals.cut_short += followed.cut_short;
   totals.followed_near_border += followed.near_border;
@@ -194,7 +197,8 @@ void print_summary(const Totals& totals) {
   print_names("undecided", totals.undecided);
   print_names("simulator is unclear or disagrees with itself", totals.no_measure);
   print_names("simulator does not know", totals.refused);
-  std::printf("starts of the library in the simulator: %zu\n", totals.starts);
+  std::printf("starts of the library in the simulator: %zu, near a border %zu\n", totals.starts,
+              totals.starts_near_border);
   std::printf("random starts: %zu, near a border %zu, unclear %zu, of unlisted size %zu\n",
               totals.random, totals.near_border, totals.random_unclear, totals.unlisted);
   std::printf(
