@@ -186,8 +186,11 @@ ShaftReadings random_start(std::mt19937_64& engine, const PlainDrive& drive) {
 bool permits(const Answer& answer, EndKind kind) {
   if (kind == EndKind::unclear) return true;
   const bool rests = kind == EndKind::rest || kind == EndKind::fades;
-  if (kind == EndKind::runs_away && answer.search && answer.search->count("diverges") > 0) {
-    return true;  // as the headline says besides
+  // The headline says besides that starts run away, or stay undecided: then the drive counts as
+  // undecided.
+  if (kind == EndKind::runs_away && answer.search &&
+      answer.search->count("diverges") + answer.search->count("undecided") > 0) {
+    return true;
   }
   switch (answer.verdict) {
     case Verdict::cannot_hunt:
