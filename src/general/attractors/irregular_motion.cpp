@@ -326,6 +326,27 @@ bool stands_while_driven(const Watch& watch, const Stretch& stretch, const Searc
          are_alike(stretch.last, watch.before, setting, tolerances.irregular.steady_statistics);
 }
 
+namespace {
+
+/// Standard errors of means.
+double error_of_half_swing(const IrregularFound& motion) {
+  return motion.half_swing_deviation / std::sqrt(static_cast<double>(motion.swings));
+}
+double error_of_period(const IrregularFound& motion) {
+  return motion.period_deviation / std::sqrt(motion.watched / motion.period);
+}
+
+/// By how much two means of one motion may differ: at 95 %, but by steady_statistics at least and
+/// by same_motion at most.
+double apart_by_chance(double error, double other_error, double mean,
+                       const IrregularTolerances& tolerances) {
+  constexpr double normal = 1.96;
+  return std::clamp(normal * std::hypot(error, other_error), tolerances.steady_statistics * mean,
+                    tolerances.same_motion * mean);
+}
+
+}  // namespace
+
 std::size_t place_among(const std::vector<IrregularFound>& known, const IrregularFound& found,
                         const IrregularTolerances& tolerances) {
   const double share = tolerances.same_motion;
@@ -337,9 +358,13 @@ std::size_t place_among(const std::vector<IrregularFound>& known, const Irregula
     };
     // Its mean swings are better known than its extremes, which are larger the longer it is
     // watched.
-    const double close = tolerances.steady_statistics;
-    const bool has_same_means = agree(one.half_swing, found.half_swing, found.half_swing, close) &&
-                                agree(one.period, found.period, found.period, close);
+    const bool has_same_means =
+        agree(one.half_swing, found.half_swing, 1.0,
+              apart_by_chance(error_of_half_swing(one), error_of_half_swing(found),
+                              found.half_swing, tolerances)) &&
+        agree(one.period, found.period, 1.0,
+              apart_by_chance(error_of_period(one), error_of_period(found), found.period,
+                              tolerances));
     const bool has_same_extremes =
         agree(one.amplitude, found.amplitude, extent, share) &&
         (found.is_motor_alone ||
