@@ -8,6 +8,7 @@
 
 #include "gearlash/analyse.hpp"
 #include "gearlash/input.hpp"
+#include "gearlash/motion.hpp"
 
 namespace gearlash::ends_test {
 namespace {
@@ -82,6 +83,22 @@ TEST(Ends, AnInvertedLoadRestsInThreePieces) {
   ASSERT_EQ(answer.rest->pieces.size(), 3U);
   EXPECT_NEAR(answer.rest->pieces[1].load.low, -1.05, 1e-9);
   EXPECT_NEAR(answer.rest->pieces[2].load.high, 1.05, 1e-9);
+}
+
+/// No step of a hundred of the drive's lengths makes it fall; the search tries a larger one, from
+/// which the torque limit cannot hold it. Where it begins to fall is that of the motion itself.
+TEST(Ends, AWeightThatStandsFallsAfterLargeSteps) {
+  const Drive drive = read_drive(data / "weight-falls.toml");
+  const Answer answer = analyse(drive);
+  const auto falls = [](const Threshold& one) { return one.end == "running away"; };
+  const auto threshold = std::find_if(answer.thresholds.begin(), answer.thresholds.end(), falls);
+  ASSERT_NE(threshold, answer.thresholds.end());
+  const auto place_after = [&](double step) {
+    const Span span{.until = 8.0, .start = Start{.load_position = step}};
+    return std::abs(simulate(drive, span).at(span.until).shafts.load_position);
+  };
+  EXPECT_GT(place_after(1.02 * threshold->from), 100.0);
+  EXPECT_LT(place_after(0.98 * threshold->below), 1.0);
 }
 
 /// Followed on, the start that takes longest rests from 250 s on, to within its half step of the

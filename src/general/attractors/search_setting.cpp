@@ -247,6 +247,23 @@ SearchSetting scaled(const SearchSetting& setting, const hybrid::Trajectory& mot
   return result;
 }
 
+namespace {
+
+/// rad from the reference, on one side: where the weight of the load, which pushes on from there,
+/// overcomes the torque limit and the dry friction. Infinite of a load that hangs.
+double falling_length(const ReducedDrive& drive, double side) {
+  const Gravity& gravity = drive.gravity;
+  const auto* load_torque = std::get_if<double>(&drive.load_torque);
+  if (!(gravity.stiffness < 0.0) || load_torque == nullptr) return infinity;
+  const double outwards =
+      side * (*load_torque - gravity.stiffness * (middle_of(drive.reference) - gravity.angle));
+  const double held = std::min(drive.torque_limit, drive.winding.torque_limit) +
+                      drive.motor.friction.breakaway + drive.load.friction.breakaway;
+  return (held - outwards) / -gravity.stiffness;
+}
+
+}  // namespace
+
 std::vector<ShaftStates> usual_starts(const SearchSetting& setting,
                                       const StartTolerances& tolerances) {
   const double low = tolerances.least_step * setting.small_length;
@@ -258,12 +275,17 @@ std::vector<ShaftStates> usual_starts(const SearchSetting& setting,
   const auto* ramp = std::get_if<Ramp>(&setting.drive.reference);
   const double speed = ramp != nullptr ? ramp->rate : 0.0;
   std::vector<ShaftStates> starts;
+  const auto add = [&](double offset, double face) {
+    const double load = reference + offset;
+    starts.push_back({load + face * half_gap, speed, load, speed});
+  };
   const auto add_offsets = [&](double sign, double face) {
     for (int i = 0; i <= count; ++i) {
-      const double offset = sign * low * std::pow(high / low, static_cast<double>(i) / count);
-      const double load = reference + offset;
-      starts.push_back({load + face * half_gap, speed, load, speed});
+      add(sign * low * std::pow(high / low, static_cast<double>(i) / count), face);
     }
+    constexpr double beyond = 1.2;
+    const double falling = beyond * falling_length(setting.drive, sign);
+    if (falling > high && std::isfinite(falling)) add(sign * falling, face);
   };
   add_offsets(1.0, -1.0);
   add_offsets(1.0, 1.0);
