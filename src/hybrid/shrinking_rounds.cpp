@@ -104,6 +104,7 @@ Vector farthest_off(const Trajectory& motion, std::size_t event, const Vector& l
   return off;
 }
 
+/// A guard that fires is not clear, since the motion meets it: it is zero.
 bool is_homogeneous(const AffineMode& mode, const Nearness& near) {
   return mode.timed.empty() && near.is_zero(mode.flow.matrix, mode.flow.offset) &&
          std::all_of(mode.transitions.begin(), mode.transitions.end(),
@@ -112,7 +113,7 @@ bool is_homogeneous(const AffineMode& mode, const Nearness& near) {
 
 bool is_homogeneous(const Transition& fired, const Nearness& near) {
   const AffineReset& reset = fired.reset;
-  if (!reset.quantizers.empty() || !near.is_zero(fired.guard)) return false;
+  if (!reset.quantizers.empty()) return false;
   const Eigen::Index size = fired.guard.normal.size();
   const Matrix change = reset.slope(size) - Matrix::Identity(size, size);
   const Vector offset = reset.offset.size() > 0 ? reset.offset : Vector::Zero(size);
