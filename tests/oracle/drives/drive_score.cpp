@@ -71,8 +71,15 @@ void state_amplitudes(const Answer& answer, ScoredStart& scored) {
   }
 }
 
+/// Whether the headline names the motion in which a start ends.
+bool is_of_headline(const Answer& answer, const StartOutcome& start) {
+  const Cycle* named = answer.largest_stable();
+  if (start.end == "cycle") return &answer.cycles[*start.which] == named;
+  return named == nullptr && start.which == 0;
+}
+
 Agreement agreement_of(const ScoredStart& scored, const Ending& ending, const PlainDrive& drive,
-                       double share, double irregular_share, bool rests_engaged) {
+                       const Answer& answer, double share, double irregular_share) {
   const std::string& end = scored.start.end;
   if (end == "undecided") return Agreement::undecided;
   if (ending.kind == EndKind::unclear) return Agreement::no_measure;
@@ -84,13 +91,16 @@ Agreement agreement_of(const ScoredStart& scored, const Ending& ending, const Pl
   if (end == "diverges") {
     return ending.kind == EndKind::runs_away ? Agreement::right : Agreement::wrong;
   }
-  if (rests && rests_engaged) return Agreement::right;  // small disturbances leave that rest
+  if (rests && answer.rests_engaged) return Agreement::right;  // small disturbances leave that rest
   Ending stated{.kind = EndKind::hunts,
                 .amplitude = scored.amplitude,
                 .motor_amplitude = scored.motor_amplitude};
   if (agree(stated, ending, drive, share)) return Agreement::right;
-  // A headline has the amplitude of the load. Extremes of irregular motion grow with the time that
-  // it is watched, those of the motor within the gap above all.
+  // A headline has the amplitude of the load, of one motion. Extremes of irregular motion grow with
+  // the time that it is watched, those of the motor within the gap above all.
+  if (ending.kind == EndKind::hunts && !is_of_headline(answer, scored.start)) {
+    return Agreement::right_of_other_size;
+  }
   const bool load_swings = scored.amplitude > 0.1 * scored.motor_amplitude;
   if (end == "irregular" && load_swings) stated.motor_amplitude = ending.motor_amplitude;
   return agree(stated, ending, drive, irregular_share) ? Agreement::right_of_other_size
@@ -139,8 +149,7 @@ ScoredStart scored_start(const StartOutcome& start, const Answer& answer, const 
   half.longest_step *= 0.5;
   const double share = permitted_share(answer, start, options.share, options.irregular_share);
   const auto judged = [&](const Ending& ending) {
-    return agreement_of(scored, ending, drive, share, options.irregular_share,
-                        answer.rests_engaged);
+    return agreement_of(scored, ending, drive, answer, share, options.irregular_share);
   };
   scored.ending = ending_of(drive, shafts, whole);
   scored.agreement = judged(scored.ending);
