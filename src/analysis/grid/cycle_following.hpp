@@ -32,8 +32,8 @@ class CycleFollowing {
                       const drive::FoundCycle& cycle) const;
 
   /// By Newton's method in steps that are halved where it fails, down to 1/512 of the way. A cycle
-  /// whose amplitudes differ by more than a quarter from the last one's is another. Lost where it is
-  /// stopped.
+  /// whose amplitudes differ by more than a quarter from the last one's is another. Lost where it
+  /// is stopped.
   FollowedWay to(const FollowedCycle& from, double parameter) const;
 
  private:

@@ -128,7 +128,7 @@ struct AttractorSearch {
   std::vector<FoundCycle> cycles;  ///< stable ones first, by falling amplitude
   std::optional<RestFound> rest;
   std::vector<IrregularFound> irregular;  ///< by falling amplitude; of the motor alone last
-  std::vector<Outcome> outcomes;  ///< of every start, in order
+  std::vector<Outcome> outcomes;          ///< of every start, in order
   std::vector<Edge> edges;
   std::vector<FoundThreshold> thresholds;
   /// s, of the linear loop with faces together: 2π/|slowest eigenvalue that oscillates|, or the

@@ -15,12 +15,12 @@ namespace gearlash::oracle {
 
 enum class Agreement {
   right,
-  right_as_it_fades,    ///< the library calls it rest; in the simulator the motion shrinks, small
+  right_as_it_fades,  ///< the library calls it rest; in the simulator the motion shrinks, small
   /// Both hunt, by amplitudes that agree to the share of irregular motion, or in a motion that the
   /// headline does not name.
   right_of_other_size,
   wrong,
-  undecided,   ///< by the library
+  undecided,    ///< by the library
   near_border,  ///< wrong, but a start 1 % aside ends in the simulator as the library says
   /// The simulator disagrees with itself at half the step, or is unclear, or the motion is too slow
   /// for it.

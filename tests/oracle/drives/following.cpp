@@ -247,7 +247,8 @@ bool rests_elsewhere(const Answer& answer, const StartOutcome& start,
   const double band = answer.rest->time->band;
   const Bounds& all = answer.rest->load;
   constexpr double near = 1e-3;
-  return std::abs(*followed.place - start.rest->load) > start.rest->uncertainty.value_or(0.0) + near * band &&
+  return std::abs(*followed.place - start.rest->load) >
+             start.rest->uncertainty.value_or(0.0) + near * band &&
          *followed.place >= all.low - band && *followed.place <= all.high + band;
 }
 

@@ -130,9 +130,9 @@ void print_drive(const NamedDrive& named, const DriveScore& score, const Followe
   std::printf("%s | %s | %s | %.2f s | undecided %zu of %zu | right %zu", named.name.c_str(),
               kind_of(named.drive).c_str(), headline(named.drive, score.answer).c_str(),
               score.processor_seconds, score.undecided, all, score.count(Agreement::right));
-  for (const Agreement one : {Agreement::right_as_it_fades, Agreement::right_of_other_size,
-                              Agreement::wrong, Agreement::undecided, Agreement::near_border,
-                              Agreement::no_measure}) {
+  for (const Agreement one :
+       {Agreement::right_as_it_fades, Agreement::right_of_other_size, Agreement::wrong,
+        Agreement::undecided, Agreement::near_border, Agreement::no_measure}) {
     if (score.count(one) > 0) std::printf(", %s %zu", name_of(one), score.count(one));
   }
   if (!score.refused.empty()) std::printf(" | not compared: %s", score.refused.c_str());
