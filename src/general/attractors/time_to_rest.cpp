@@ -75,6 +75,8 @@ double time_until_within(double band, const ShrinkingSteps& steps) {
 
 std::optional<double> last_time_outside(double band, double final, const Watch& watch,
                                         const SearchSetting& setting, std::size_t step_limit) {
+  constexpr double rounding = 1e-9;  // a start may lie on the band's end
+  band *= 1.0 + rounding;
   const auto is_outside = [&](double value) { return std::abs(value - final) > band; };
   const auto last = std::find_if(watch.load.rbegin(), watch.load.rend(),
                                  [&](const Sample& sample) { return is_outside(sample.value); });

@@ -157,13 +157,18 @@ double step_of(const Drive& drive) {
   return encoder.counts_per_turn ? turn / *encoder.counts_per_turn / turns : 0.0;
 }
 
+/// rad, of the shaft that hunts.
+double swings_of(const IrregularMotion& motion) {
+  return motion.is_motor_alone ? motion.motor_amplitude.value_or(0.0) : motion.amplitude;
+}
+
 FollowedStart follow_hunting(const Drive& drive, const Answer& answer, const StartOutcome& start,
                              const FollowOptions& options) {
   FollowedStart result;
   if (!start.which || !(start.watched > 0.0)) return result;
   const bool is_cycle = start.end == "cycle";
   const double listed =
-      is_cycle ? answer.cycles[*start.which].amplitude : answer.irregular[*start.which].amplitude;
+      is_cycle ? answer.cycles[*start.which].amplitude : swings_of(answer.irregular[*start.which]);
   const Motion motion = simulate(
       drive, span_of(drive, start, options.times_of_hunting * start.watched, options.most_events));
   const double until = motion.end_time();
@@ -177,15 +182,17 @@ FollowedStart follow_hunting(const Drive& drive, const Answer& answer, const Sta
   constexpr std::size_t count = 20'001;
   Window late = window_of(motion, 0.5 * (start.watched + until), until, count);
   subtract_ramp(drive, late);
-  const double amplitude = 0.5 * width_of(extremes_of(late.load));
+  const bool is_motor_alone = !is_cycle && answer.irregular[*start.which].is_motor_alone;
+  const double of_load = 0.5 * width_of(extremes_of(late.load));
+  const double motor = 0.5 * width_of(extremes_of(late.motor));
+  const double amplitude = is_motor_alone ? motor : of_load;
   const double share = permitted_share(answer, start, options.share, options.irregular_share);
   const double least = std::max(step_of(drive), 1e-3 * drive.gearbox.backlash);
   if (std::abs(amplitude - listed) > std::max(share * std::max(amplitude, listed), least)) {
     result.contradiction =
-        text("the load swings by ±%.4g rad, listed ±%.4g rad", amplitude, listed);
+        text("it swings by ±%.4g rad, listed ±%.4g rad", amplitude, listed);
   }
   result.amplitude = amplitude;
-  const double motor = 0.5 * width_of(extremes_of(late.motor));
   const bool rests = amplitude < 1e-3 * listed && motor < 1e-3 * drive.gearbox.backlash;
   if (rests && answer.rests_engaged) {
     result.contradiction.clear();
