@@ -48,6 +48,16 @@ TEST(TimeToRest, OfAnOverdampedServoIsThatOfItsSlowDecay) {
   }
 }
 
+TEST(TimeToRest, IsNoneOfAStartOnTheEndOfTheBand) {
+  const ReducedDrive drive = servo_drive(2.0, 0.1, 0.02);
+  constexpr double rounding = 1e-12;
+  const AttractorSearch found =
+      find_attractors(drive, {.starts = {{1.0 - 0.5 * drive.backlash, 0.0, 1.0, 0.0}},
+                              .most_edges = 0,
+                              .band = 1.0 - rounding});
+  EXPECT_EQ(found.outcomes.front().time_to_rest, 0.0);
+}
+
 /// Every rest of drives with dry friction, sampled or not, against the motion itself.
 TEST(PropertyTimeToRest, IsThatOfTheMotion) {
   int compared = 0;
