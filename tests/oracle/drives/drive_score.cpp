@@ -253,11 +253,19 @@ std::string text_of(const ShaftReadings& start, const Ending& ending) {
   return line.data();
 }
 
+/// Whether swings that grow to thousands of gaps, which is called running away, are no larger than
+/// hunting that is listed.
+bool grows_towards_listed(const Answer& answer, const Ending& ending, const ScoreOptions& options) {
+  const double listed = answer.value(Quantity::amplitude).value_or(0.0);
+  return ending.kind == EndKind::runs_away && ending.amplitude > 0.0 &&
+         ending.amplitude <= (1.0 + options.irregular_share) * listed;
+}
+
 void follow_random_start(const ShaftReadings& start, const Answer& answer, const PlainDrive& drive,
                          const ScoreOptions& options, RandomStarts& random) {
   ++random.followed;
   const Ending ending = ending_of(drive, start, options.ending);
-  if (ending.kind == EndKind::unclear) {
+  if (ending.kind == EndKind::unclear || grows_towards_listed(answer, ending, options)) {
     ++random.unclear;
     return;
   }
