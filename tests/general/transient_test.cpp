@@ -86,5 +86,54 @@ TEST(Transient, OfASearchIsListedOnce) {
   }
 }
 
+/// 100 swings of 1 rad, of 2 s each.
+IrregularFound irregular_motion(double scatter) {
+  IrregularFound motion;
+  motion.amplitude = 1.2;
+  motion.motor_amplitude = 1.0;
+  motion.period = 2.0;
+  motion.period_deviation = 2.0 * scatter;
+  motion.half_swing = 1.0;
+  motion.half_swing_deviation = scatter;
+  motion.watched = 200.0;
+  motion.swings = 100;
+  return motion;
+}
+
+bool is_one(const IrregularFound& one, const IrregularFound& other) {
+  return place_among({one}, other, {}) == 0;
+}
+
+/// Means of 100 swings are known to a tenth of the scatter of one.
+TEST(IrregularMotions, AreOneWhereChanceExplainsTheirMeans) {
+  for (const double scatter : {0.0, 0.5}) {
+    const IrregularFound motion = irregular_motion(scatter);
+    IrregularFound other = motion;
+    other.amplitude = 2.0;  // extremes grow with the time that they are watched
+    other.half_swing = 1.06;
+    EXPECT_EQ(is_one(motion, other), scatter == 0.5);
+    other.half_swing = 1.02;
+    EXPECT_TRUE(is_one(motion, other));
+    other.period = 2.12;
+    EXPECT_EQ(is_one(motion, other), scatter == 0.5);
+    other.period = 2.3;
+    EXPECT_FALSE(is_one(motion, other));
+  }
+}
+
+TEST(IrregularMotions, AreOneThoughTheirMiddlesWander) {
+  const IrregularFound motion = irregular_motion(0.0);
+  IrregularFound other = motion;
+  other.center = 0.6;
+  other.mean_center = 0.3;
+  EXPECT_TRUE(is_one(motion, other));
+  other.mean_center = 0.5;
+  EXPECT_FALSE(is_one(motion, other));
+  other.is_motor_alone = true;  // within the gap, wherever the load stands
+  IrregularFound alone = motion;
+  alone.is_motor_alone = true;
+  EXPECT_TRUE(is_one(alone, other));
+}
+
 }  // namespace
 }  // namespace gearlash::drive::transient_test
