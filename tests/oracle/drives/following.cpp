@@ -127,6 +127,7 @@ FollowedStart follow_rest(const Drive& drive, const Answer& answer, const StartO
   subtract_ramp(drive, late);
   const Bounds load = extremes_of(late.load);
   result.amplitude = 0.5 * width_of(load);
+  result.motor_amplitude = 0.5 * width_of(extremes_of(late.motor));
   constexpr double rounding = 1.001;
   if (width_of(load) > 2.0 * band * rounding) {
     result.contradiction =
@@ -189,10 +190,10 @@ FollowedStart follow_hunting(const Drive& drive, const Answer& answer, const Sta
   const double share = permitted_share(answer, start, options.share, options.irregular_share);
   const double least = std::max(step_of(drive), 1e-3 * drive.gearbox.backlash);
   if (std::abs(amplitude - listed) > std::max(share * std::max(amplitude, listed), least)) {
-    result.contradiction =
-        text("it swings by ±%.4g rad, listed ±%.4g rad", amplitude, listed);
+    result.contradiction = text("it swings by ±%.4g rad, listed ±%.4g rad", amplitude, listed);
   }
-  result.amplitude = amplitude;
+  result.amplitude = of_load;
+  result.motor_amplitude = motor;
   const bool rests = amplitude < 1e-3 * listed && motor < 1e-3 * drive.gearbox.backlash;
   if (rests && answer.rests_engaged) {
     result.contradiction.clear();
@@ -262,13 +263,20 @@ bool rests_elsewhere(const Answer& answer, const StartOutcome& start,
 /// A rounding may lead it to another end of the list, or a small displacement to its own.
 bool is_near_border(const Drive& drive, const Answer& answer, const StartOutcome& start,
                     const FollowedStart& followed, const FollowOptions& options) {
-  const auto is_within = [&](double share) {
-    return [share, &followed](const auto& motion) {
-      return std::abs(followed.amplitude - motion.amplitude) <= share * motion.amplitude;
-    };
+  const auto agrees = [](double amplitude, double listed, double share) {
+    return std::abs(amplitude - listed) <= share * listed;
   };
-  if (std::ranges::any_of(answer.cycles, is_within(options.share)) ||
-      std::ranges::any_of(answer.irregular, is_within(options.irregular_share))) {
+  const auto is_cycle = [&](const Cycle& cycle) {
+    const bool is_of_motor = cycle.amplitude < 0.01 * cycle.motor_amplitude;
+    return is_of_motor ? agrees(followed.motor_amplitude, cycle.motor_amplitude, options.share)
+                       : agrees(followed.amplitude, cycle.amplitude, options.share);
+  };
+  const auto is_irregular = [&](const IrregularMotion& motion) {
+    return agrees(motion.is_motor_alone ? followed.motor_amplitude : followed.amplitude,
+                  swings_of(motion), options.irregular_share);
+  };
+  if (std::ranges::any_of(answer.cycles, is_cycle) ||
+      std::ranges::any_of(answer.irregular, is_irregular)) {
     return true;
   }
   if (start.end == "rest" && rests_elsewhere(answer, start, followed)) return true;

@@ -23,9 +23,10 @@ struct FollowOptions {
 };
 
 struct FollowedStart {
-  std::string contradiction{};  ///< what it does instead, in words; empty if it agrees
-  double amplitude = 0.0;       ///< rad, of the load at the end, of one that hunts
-  double followed = 0.0;        ///< how many times longer than the search it was followed
+  std::string contradiction{};   ///< what it does instead, in words; empty if it agrees
+  double amplitude = 0.0;        ///< rad, of the load at the end
+  double motor_amplitude = 0.0;  ///< rad, of the motor
+  double followed = 0.0;         ///< how many times longer than the search it was followed
   /// s, the last time at which the load was outside the answer's band about its final position; of
   /// a start called rest that was followed twice as long at least.
   std::optional<double> time_to_rest{};
