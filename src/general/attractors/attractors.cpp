@@ -263,7 +263,9 @@ class Search {
   std::vector<std::size_t> sort(std::vector<Found>& motions, MotionEnd end, const Key& key) {
     std::vector<std::size_t> order(motions.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return key(motions[i]); });
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return key(motions[a]) < key(motions[b]);
+    });
     std::vector<Found> sorted;
     std::vector<std::size_t> place(order.size());
     for (const std::size_t i : order) {
