@@ -202,7 +202,7 @@ TEST_F(DriveCommand, PicturesGoOnUntilSlowHuntingShows) {
     return file_text(picture);
   };
   EXPECT_THAT(drawn({}),
-              testing::AllOf(HasSubstr("the last 11 s, enlarged"), HasSubstr(">hunts: ")));
+              testing::AllOf(HasSubstr("the last 17 s, enlarged"), HasSubstr(">hunts: ")));
   const std::string last = lines_of(file_text(table)).back();
   EXPECT_LT(std::stod(last), 5.0);
   EXPECT_THAT(drawn({"--until", "6"}), HasSubstr("the last 2 s, enlarged"));
