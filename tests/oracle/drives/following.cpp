@@ -339,10 +339,13 @@ FollowedStart follow(const Drive& drive, const Answer& answer, const StartOutcom
   if (start.end != "cycle" && start.end != "irregular") return {};
   FollowedStart followed = follow_hunting(searched, answer, start, options);
   if (followed.contradiction.empty()) return followed;
-  // A chaotic transient may last much longer after a rounding; in the end it hunts about as far.
+  // A chaotic transient may last much longer after a rounding, as long as that of another start; in
+  // the end it hunts about as far.
+  double longest = 0.0;
+  for (const StartOutcome& one : answer.search->starts) longest = std::max(longest, one.watched);
   FollowOptions longer = options;
   longer.share = options.irregular_share;
-  longer.times_of_hunting *= 8.0;
+  longer.times_of_hunting = std::max(8.0 * options.times_of_hunting, 2.0 * longest / start.watched);
   longer.most_events = std::max<std::size_t>(longer.most_events, 1'000'000);
   return follow_hunting(searched, answer, start, longer);
 }

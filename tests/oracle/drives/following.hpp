@@ -52,11 +52,11 @@ struct FollowedDrive {
 };
 
 /// Every start of the search. A transient that outlasts the search's, as chaotic ones may after a
-/// rounding, is followed eight times longer. Times to rest agree to 1 %. A start at each end of the
-/// computed pieces of rest stays there, in one place of the gap at least; one beyond it, by 1 % of
-/// the piece, stays in none. These begin at rest, with rigid faces and a controller that holds at
-/// once: without an integral, a derivative of the error, or a pull before a computer's first
-/// output.
+/// rounding, is followed eight times longer, and twice as long as any start was. Times to rest
+/// agree to 1 %. A start at each end of the computed pieces of rest stays there, in one place of
+/// the gap at least; one beyond it, by 1 % of the piece, stays in none. These begin at rest, with
+/// rigid faces and a controller that holds at once: without an integral, a derivative of the error,
+/// or a pull before a computer's first output.
 [[nodiscard]] FollowedDrive follow_all(const Drive& drive, const Answer& answer,
                                        const FollowOptions& options = {});
 
