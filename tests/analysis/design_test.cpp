@@ -8,6 +8,7 @@
 #include <string>
 
 #include "analysis/faults_of.hpp"
+#include "base/stopping.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
 
@@ -93,9 +94,7 @@ TEST(Design, TheLeastChangeEndsWhereGrowthAtRestIsOne) {
 }
 
 TEST(Design, AMarginThatIsStoppedSaysSo) {
-  struct : Progress {
-    bool go_on(double, std::size_t) override { return false; }
-  } impatient;
+  test::Stopping impatient;
   const HuntingMargin margin = hunting_margin(sample_servo(), impatient);
   EXPECT_TRUE(margin.stopped);
   EXPECT_EQ(margin.parameters.size(), 1U);

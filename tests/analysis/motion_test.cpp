@@ -8,6 +8,7 @@
 #include <string>
 
 #include "analysis/motion.hpp"
+#include "base/stopping.hpp"
 #include "closed_form/trajectory.hpp"
 
 namespace gearlash::motion_test {
@@ -67,13 +68,8 @@ TEST(Motion, GivesAHundredMillionSamplesAtMost) {
   EXPECT_THROW((void)motion.sampled(1e-300), InvalidInput);
 }
 
-/// Stops at once.
-class Stop : public Progress {
-  bool go_on(double, std::size_t) override { return false; }
-};
-
 TEST(Motion, SamplingCanBeStopped) {
-  Stop stop;
+  test::Stopping stop;
   EXPECT_TRUE(simulate(sample_drive(), {.until = 2.0}).sampled(0.1, stop).time.empty());
 }
 
@@ -172,13 +168,9 @@ TEST(Motion, HasNoTicksAmongItsEvents) {
 }
 
 TEST(Motion, IsStoppedOnItsWayByProgress) {
-  class HalfTheWay : public Progress {
-   public:
-    bool go_on(double share, std::size_t /*bytes*/) override { return share < 0.5; }
-  };
   Drive drive = general_drive();
   drive.sampling = Sampling{.period = 0.01};
-  HalfTheWay progress;
+  auto progress = test::Stopping::at(0.5);
   const Motion motion = simulate(drive, {.until = 1000.0}, progress);
   EXPECT_EQ(motion.stop(), MotionStop::stopped);
   EXPECT_GE(motion.end_time(), 500.0);

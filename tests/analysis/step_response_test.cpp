@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/stopping.hpp"
+
 namespace gearlash::drive::step_response_test {
 namespace {
 
@@ -66,12 +68,7 @@ TEST(StepResponse, SaysWhatDoesNotComeAbout) {
 
 /// It stays in its band from 4 s on, and so would any part of the motion; only the whole shows it.
 TEST(StepResponse, IsThatOfTheMotionByThenWhereItIsStopped) {
-  class Impatient : public Progress {
-   public:
-    bool go_on(double /*share*/, std::size_t /*bytes*/) override { return ++asked < 3; }
-    int asked = 0;
-  };
-  Impatient impatient;
+  test::Stopping impatient(3);
   const ReducedDrive drive = second_order(0.5);
   const StepResponse response = step_response(drive, 1.0, 1e6, impatient);
   EXPECT_EQ(impatient.asked, 3);

@@ -10,6 +10,7 @@
 #include "analysis/design/toleranced_samples.hpp"
 #include "analysis/linear_loop.hpp"
 #include "analysis/pd_drive.hpp"
+#include "base/stopping.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
 #include "model/reduced_drive.hpp"
@@ -188,16 +189,8 @@ TEST(EdgeTune, EveryFaultIsToldAtOnce) {
   EXPECT_THAT(faults_of(task), Contains(HasSubstr("must name a parameter to tune")));
 }
 
-class StopAtOnce : public Progress {
- public:
-  bool go_on(double /*share*/, std::size_t /*bytes*/ = 0) override { return ++calls_ < 4; }
-
- private:
-  int calls_ = 0;
-};
-
 TEST(EdgeTune, StopsWithTheBestByThen) {
-  StopAtOnce stop;
+  test::Stopping stop(4);
   const TunedDrive tuned = tune(servo_task(), {}, stop);
   EXPECT_TRUE(tuned.stopped);
   EXPECT_FALSE(tuned.meets);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "base/stopping.hpp"
 #include "closed_form/limit_cycle.hpp"
 #include "drives.hpp"
 
@@ -485,11 +486,7 @@ TEST(FollowAttractors, StartsInANarrowerGapToo) {
 }
 
 TEST(FollowAttractors, GivesUpWhereASearchWasStopped) {
-  class Stop : public Progress {
-   public:
-    bool go_on(double /*share*/, std::size_t /*bytes*/) override { return false; }
-  };
-  Stop stop;
+  test::Stopping stop;
   const ReducedDrive drive = servo_drive(0.19, 2.0, 0.1);
   EXPECT_FALSE(follow_attractors(drive, find_attractors(drive, {}, stop)));
 }

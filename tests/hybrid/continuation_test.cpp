@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "base/correct_digits.hpp"
+#include "base/stopping.hpp"
 #include "closed_form/limit_cycle.hpp"
-#include "gearlash/progress.hpp"
 #include "servo_system.hpp"
 
 namespace gearlash::hybrid::continuation_test {
@@ -49,23 +49,11 @@ TEST(Continuation, ABranchEndsAtTheSideOfItsRangeThatItLeaves) {
   EXPECT_EQ(branch.points.back().parameter, 0.07);
 }
 
-/// Stops work that asks for the `most`-th time.
-class StopsAfter : public Progress {
- public:
-  explicit StopsAfter(std::size_t most) : most_(most) {}
-  bool go_on(double /*share*/, std::size_t /*bytes*/) override { return ++asked < most_; }
-
-  std::size_t asked = 0;
-
- private:
-  std::size_t most_;
-};
-
 TEST(Continuation, IsStoppedWithTheOrbitsThatItHasAndNamesNoEnd) {
   const auto orbit = driven_orbit(0.05);
   ASSERT_TRUE(orbit);
   const auto stopped_after = [&](std::size_t most) {
-    StopsAfter progress(most);
+    test::Stopping progress(most);
     const Branch branch =
         continue_orbit(driven_towards_stop, 0.05, *orbit, {.high = 1.0, .progress = &progress});
     EXPECT_EQ(branch.end, BranchEnd::stopped) << most;

@@ -28,6 +28,16 @@ TEST(Ends, AStandingLoadWhoseMotorCrossesTheGapHunts) {
   EXPECT_NEAR(answer.cycles[0].amplitude, 0.3153, 0.0001);
 }
 
+/// From the starts on a face the motor slides up to the reference and never stops. simulate() from
+/// 2e-5 rad to either side, and the fixed-step simulator, hunt within the gap.
+TEST(Ends, AMotorHuntsAloneNearItsReference) {
+  const Answer answer = answer_of("motor-hunts-alone-near-its-reference");
+  EXPECT_EQ(answer.verdict, Verdict::hunts_if_disturbed);
+  ASSERT_EQ(answer.cycles.size(), 1U);
+  EXPECT_NEAR(answer.cycles[0].motor_amplitude, 7.891882e-6, 1e-11);
+  EXPECT_EQ(answer.cycles[0].amplitude, 0.0);
+}
+
 /// Of several irregular motions every verb names the largest, which is listed first.
 TEST(Ends, TheLargestOfIrregularMotionsIsListedFirst) {
   const Answer answer = analyse(read_drive(data / "../industrial/rnd08.toml"));

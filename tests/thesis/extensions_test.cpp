@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/stopping.hpp"
 #include "closed_form/limit_cycle.hpp"
 #include "thesis/chart_errors.hpp"
 
@@ -131,22 +132,13 @@ TEST(Extensions, RestitutionOverTheChartsOf1960) {
 }
 
 TEST(ChartErrors, LeaveOutTheServoAtWhichTheyAreStopped) {
-  class Impatient : public Progress {
-   public:
-    explicit Impatient(int most) : most_(most) {}
-    bool go_on(double /*share*/, std::size_t /*bytes*/) override { return ++asked < most_; }
-    int asked = 0;
-
-   private:
-    int most_;
-  };
   const auto run = [](const ProgramParameters& parameters, Progress& progress) {
     return run_until_settled(parameters, {}, progress);
   };
-  Impatient within_the_first(100);
+  test::Stopping within_the_first(100);
   EXPECT_TRUE(chart_errors(run, within_the_first).empty());
   EXPECT_LE(within_the_first.asked, 101);
-  Impatient after_it(200'000);
+  test::Stopping after_it(200'000);
   EXPECT_FALSE(chart_errors(run, after_it).empty());
 }
 

@@ -175,14 +175,23 @@ bool excludes_decay(double fastest_decay, double watched) {
   return fastest_decay * watched <= hardly;
 }
 
+namespace {
+
+/// Standard errors of means.
+double error_of_half_swing(const IrregularFound& motion) {
+  return motion.half_swing_deviation / std::sqrt(static_cast<double>(motion.swings));
+}
+double error_of_period(const IrregularFound& motion) {
+  return motion.period_deviation / std::sqrt(motion.watched / motion.period);
+}
+
+}  // namespace
+
 bool is_sure(const IrregularFound& found, const IrregularTolerances& tolerances, double repeating) {
-  const auto error = [&](double deviation, double mean) {
-    return deviation / (mean * std::sqrt(static_cast<double>(found.swings)));
-  };
   const bool means_are_known =
       found.swings >= tolerances.few_swings &&
-      error(found.half_swing_deviation, found.half_swing) < tolerances.error_of_means &&
-      error(found.period_deviation, found.period) < tolerances.error_of_means;
+      error_of_half_swing(found) < tolerances.error_of_means * found.half_swing &&
+      error_of_period(found) < tolerances.error_of_means * found.period;
   return means_are_known || found.swings >= tolerances.enough_swings || found.mismatch < repeating;
 }
 
@@ -327,14 +336,6 @@ bool stands_while_driven(const Watch& watch, const Stretch& stretch, const Searc
 }
 
 namespace {
-
-/// Standard errors of means.
-double error_of_half_swing(const IrregularFound& motion) {
-  return motion.half_swing_deviation / std::sqrt(static_cast<double>(motion.swings));
-}
-double error_of_period(const IrregularFound& motion) {
-  return motion.period_deviation / std::sqrt(motion.watched / motion.period);
-}
 
 /// By how much two means of one motion may differ: at 95 %, but by steady_statistics at least and
 /// by same_motion at most.

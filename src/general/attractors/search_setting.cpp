@@ -293,8 +293,15 @@ std::vector<ShaftStates> usual_starts(const SearchSetting& setting,
     add_offsets(-1.0, -1.0);
     add_offsets(-1.0, 1.0);
   }
-  // From a greater speed the torque limit would let the load pass the largest step.
+  // A motor that is read and starts on a face is half a gap away at least. Near by it may hunt alone.
   const ReducedDrive& drive = setting.drive;
+  if (drive.sensing.load_share_of_position < 1.0 && drive.motor.friction.is_dry()) {
+    const double near = std::max(low, drive.sensing.resolution);
+    constexpr double middle = 0.0;
+    add(near, middle);
+    if (!is_mirrored(drive)) add(-near, middle);
+  }
+  // From a greater speed the torque limit would let the load pass the largest step.
   const double braking = drive.torque_limit / (drive.motor.inertia + drive.load.inertia);
   const double fastest = std::sqrt(2.0 * braking * high);
   for (const double times : {1.0, 10.0}) {

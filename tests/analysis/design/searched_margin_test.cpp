@@ -11,6 +11,7 @@
 #include "analysis/design/target.hpp"
 #include "analysis/faults_of.hpp"
 #include "analysis/pd_drive.hpp"
+#include "base/stopping.hpp"
 #include "closed_form/growth_at_rest.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
@@ -184,9 +185,7 @@ TEST(EdgeSearchedMargin, OfOneParameterIsTheLeastChangeWhereNoneCombinedIsLess) 
 }
 
 TEST(EdgeSearchedMargin, CanBeStopped) {
-  struct : Progress {
-    bool go_on(double share, std::size_t) override { return share < 0.5; }
-  } stop;
+  auto stop = test::Stopping::at(0.5);
   const HuntingMargin margin =
       hunting_margin(pd_drive(), {logarithmic("controller.proportional", 0.2, 20.0, 9)}, stop);
   EXPECT_TRUE(margin.stopped);

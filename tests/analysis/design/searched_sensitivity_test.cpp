@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "analysis/pd_drive.hpp"
+#include "base/stopping.hpp"
 #include "gearlash/parameter.hpp"
 #include "gearlash/sensitivity.hpp"
 #include "general/attractors/found_cycle.hpp"
@@ -243,16 +244,11 @@ TEST(SearchedSensitivity, KnowsTheScalesOfTorqueTimeAndAngle) {
 }
 
 TEST(EdgeSearchedSensitivity, LacksTheSlopesByTheNumbersAfterAStop) {
-  class Impatient : public Progress {
-   public:
-    bool go_on(double /*share*/, std::size_t /*bytes*/) override { return ++asked < 2; }
-    int asked = 0;
-  };
   Drive drive = pd_drive();
   drive.controller.law =
       PID{.terms = PIDTerms::PD, .proportional = 20.0, .derivative = 0.02, .filter = 1e-3};
   const Analysis analysis = analyse_in_full(drive, {.borders = false});
-  Impatient impatient;
+  test::Stopping impatient(2);
   const Jacobian found = searched_derivatives(drive, analysis, std::array{Quantity::amplitude},
                                               {"load.inertia", "motor.inertia"}, impatient);
   EXPECT_TRUE(found.slope(0, 0));

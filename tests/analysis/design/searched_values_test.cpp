@@ -12,6 +12,7 @@
 #include "analysis/design/target.hpp"
 #include "analysis/faults_of.hpp"
 #include "analysis/pd_drive.hpp"
+#include "base/stopping.hpp"
 #include "base/traced_draws.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/design.hpp"
@@ -183,12 +184,7 @@ TEST(SearchedValues, OfAnUnsoundDriveDoNotMeetATarget) {
 }
 
 TEST(SearchedValues, CanBeStopped) {
-  class Stop : public Progress {
-   public:
-    bool go_on(double /*share*/, std::size_t /*bytes*/) override { return ++calls < 3; }
-    int calls = 0;
-  };
-  Stop stop;
+  test::Stopping stop(3);
   const Drive drive = pd_drive();
   const FeasibleValues found = feasible_values(
       drive, logarithmic("controller.proportional", 0.5, 50.0, 9), always_at_rest(), stop);

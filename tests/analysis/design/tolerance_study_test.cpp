@@ -13,6 +13,7 @@
 #include "analysis/design/target.hpp"
 #include "analysis/faults_of.hpp"
 #include "base/seeded_draws.hpp"
+#include "base/stopping.hpp"
 #include "toleranced_samples.hpp"
 
 namespace gearlash::tolerance_study_test {
@@ -450,11 +451,7 @@ TEST(EdgeToleranceStudy, BouncesAreFollowed) {
 
 TEST(EdgeToleranceStudy, CanBeStopped) {
   const SamplePlan sampling{.points = 4096, .replicates = 4};
-  class Stop : public Progress {
-   public:
-    bool go_on(double /*share*/, std::size_t /*bytes*/) override { return false; }
-  };
-  Stop stop;
+  test::Stopping stop;
   const ToleranceStudy study =
       study_tolerances(widely_toleranced(), sampling, {}, {.threads = 1}, stop);
   EXPECT_TRUE(study.stopped);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/seeded_draws.hpp"
+#include "base/stopping.hpp"
 #include "closed_form/lanes/cycle_batch.hpp"
 #include "toleranced_samples.hpp"
 
@@ -158,12 +159,7 @@ TEST(WorstCorner, TellsWhatShareOfTheClimbsIsDone) {
 
 /// 4096 samples of a drive that bounces, eight at a time.
 TEST(WorstCorner, AsksBetweenTheDrivesOfAClimb) {
-  class Impatient : public Progress {
-   public:
-    bool go_on(double /*share*/, std::size_t /*bytes*/) override { return ++asked < 3; }
-    int asked = 0;
-  };
-  Impatient impatient;
+  test::Stopping impatient(3);
   EXPECT_TRUE(worst_corner(toleranced({{"gearbox.backlash", within_share(0.3, 0.5)},
                                        {"contact.restitution", UniformBetween{0.1, 0.9}}}),
                            {}, {.threads = 1}, impatient)

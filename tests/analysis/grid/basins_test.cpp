@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "analysis/analyse.hpp"
+#include "base/stopping.hpp"
 #include "gearlash/motion.hpp"
 
 namespace gearlash::basins_test {
@@ -85,9 +86,7 @@ TEST(Basins, StartsStandOnTheFaceThatIsPressed) {
 }
 
 TEST(Basins, StoppedWorkIsIncomplete) {
-  class Stop : public Progress {
-    bool go_on(double, std::size_t) override { return false; }
-  } stop;
+  test::Stopping stop;
   const Analysis analysis = analyse_in_full(friction_against_integral());
   EXPECT_FALSE(basins_of(analysis.reduced, *analysis.search,
                          {.position = 0.15, .speed = 2.0, .columns = 3, .rows = 3}, stop)

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "analysis/analyse.hpp"
+#include "base/stopping.hpp"
 #include "gearlash/grid.hpp"
 #include "gearlash/motion.hpp"
 
@@ -130,9 +131,7 @@ TEST(Bifurcations, BouncingCyclesLoseTheirStability) {
 }
 
 TEST(Bifurcations, StoppedWorkIsIncomplete) {
-  class Stop : public Progress {
-    bool go_on(double, std::size_t) override { return false; }
-  } stop;
+  test::Stopping stop;
   EXPECT_FALSE(
       bifurcations_of(limited_integral(8.0), linear("controller.integral", 7.0, 8.0, 2), stop)
           .is_complete);

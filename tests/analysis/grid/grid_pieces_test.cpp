@@ -7,6 +7,7 @@
 
 #include "analysis/grid/servo_grids.hpp"
 #include "base/same_bits.hpp"
+#include "base/stopping.hpp"
 
 namespace gearlash::grid_pieces_test {
 namespace {
@@ -62,22 +63,12 @@ TEST(EdgeGridInPieces, GoesOnFromWhereAPieceEnded) {
   EXPECT_FALSE(nothing.stopped);
 }
 
-/// Stops when so many points are done.
-class StopsAt : public Progress {
- public:
-  StopsAt(std::size_t most, std::size_t points)
-      : most_(static_cast<double>(most) / static_cast<double>(points)) {}
-  bool go_on(double share, std::size_t /*bytes*/) override { return share < most_; }
-
- private:
-  double most_;
-};
-
 TEST(EdgeGridInPieces, StopsWhenAsked) {
   const Grid grid = grid_of_servos();
   for (const std::size_t most : {0U, 1U, 200U, 500U}) {
     std::size_t taken = 0;
-    StopsAt progress(most, grid.size());
+    auto progress =
+        test::Stopping::at(static_cast<double>(most) / static_cast<double>(grid.size()));
     const GridCount count = evaluate_in_pieces(
         grid, closed_form_quantities, 0, 31,
         [&](const GridPiece& piece) { taken += piece.table.rows(); }, progress);

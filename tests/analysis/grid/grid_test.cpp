@@ -9,6 +9,7 @@
 #include "analysis/grid/grid_evaluation.hpp"
 #include "analysis/grid/servo_grids.hpp"
 #include "base/same_bits.hpp"
+#include "base/stopping.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
 
@@ -171,19 +172,10 @@ TEST(EdgeGrid, CombinationsThatAreNoServoAreKnownOfNothing) {
   EXPECT_EQ(table.verdict(4), Verdict::hunts);
 }
 
-class StopsAtOnce : public Progress {
- public:
-  bool go_on(double share, std::size_t /*bytes*/) override {
-    heard = share;
-    return false;
-  }
-  double heard = 0.0;
-};
-
 TEST(EdgeGrid, StopsWhenAsked) {
   const Grid grid = grid_of_three();
   Table table = table_of(grid.size());
-  StopsAtOnce progress;
+  test::Stopping progress;
   const GridCount count = work_out(grid, 0, table, {.threads = 2}, progress);
   EXPECT_TRUE(count.stopped);
   EXPECT_GT(progress.heard, 0.0);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "analysis/grid/servo_grids.hpp"
+#include "base/stopping.hpp"
 #include "closed_form/growth_at_rest.hpp"
 
 namespace gearlash::motion_regions_test {
@@ -97,11 +98,7 @@ TEST(EdgeMotionRegions, OfOneKindAreTheMap) {
 }
 
 TEST(EdgeMotionRegions, StoppedTheirBordersLieHalfWay) {
-  class Stop : public Progress {
-   public:
-    bool go_on(double /*share*/, std::size_t /*bytes*/) override { return false; }
-  };
-  Stop stop;
+  test::Stopping stop;
   const Grid grid = grid_of_servos();
   EXPECT_EQ(motion_regions(grid, worked_out(grid), stop).size(), 2U);
 }

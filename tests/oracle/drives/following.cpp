@@ -260,9 +260,9 @@ bool rests_elsewhere(const Answer& answer, const StartOutcome& start,
          *followed.place >= all.low - band && *followed.place <= all.high + band;
 }
 
-/// A rounding may lead it to another end of the list, or a small displacement to its own.
-bool is_near_border(const Drive& drive, const Answer& answer, const StartOutcome& start,
-                    const FollowedStart& followed, const FollowOptions& options) {
+/// Whether it swings by the size of another motion of the list than the one it was called.
+bool hunts_as_listed(const Answer& answer, const FollowedStart& followed,
+                     const FollowOptions& options) {
   const auto agrees = [](double amplitude, double listed, double share) {
     return std::abs(amplitude - listed) <= share * listed;
   };
@@ -275,17 +275,56 @@ bool is_near_border(const Drive& drive, const Answer& answer, const StartOutcome
     return agrees(motion.is_motor_alone ? followed.motor_amplitude : followed.amplitude,
                   swings_of(motion), options.irregular_share);
   };
-  if (std::ranges::any_of(answer.cycles, is_cycle) ||
-      std::ranges::any_of(answer.irregular, is_irregular)) {
+  return std::ranges::any_of(answer.cycles, is_cycle) ||
+         std::ranges::any_of(answer.irregular, is_irregular);
+}
+
+/// The motor by half as much: a motion that an encoder reads the same goes along with both.
+StartOutcome displaced(const StartOutcome& start, double way) {
+  StartOutcome beside = start;
+  beside.load_position += way;
+  beside.motor_position += 0.5 * way;
+  return beside;
+}
+
+/// Whether a rounding's displacement leads it elsewhere by the time at which the search decided it.
+bool is_decided_by_rounding(const Drive& drive, const StartOutcome& start,
+                            const FollowedStart& followed, const FollowOptions& options) {
+  constexpr double rounding = 1e-9;
+  const auto end_of = [&](const StartOutcome& one) {
+    const Motion motion = simulate(drive, span_of(drive, one, start.watched, options.most_events));
+    constexpr double last = 0.1;
+    constexpr std::size_t count = 401;
+    return window_of(motion, (1.0 - last) * motion.end_time(), motion.end_time(), count).motor;
+  };
+  const std::vector<double> own = end_of(start);
+  const double away = std::copysign(rounding * drive.gearbox.backlash,  // from the face
+                                    start.motor_position - start.load_position);
+  const std::vector<double> beside = end_of(displaced(start, away));
+  double apart = 0.0;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    apart = std::max(apart, std::abs(own[i] - beside[i]));
+  }
+  constexpr double much = 0.1;
+  return apart > much * followed.motor_amplitude;
+}
+
+/// A rounding may lead one that hunts to another motion of the list, one that rests to another
+/// place of the list or out of chaotic motion of the list, and a small displacement to its own end.
+bool is_near_border(const Drive& drive, const Answer& answer, const StartOutcome& start,
+                    const FollowedStart& followed, const FollowOptions& options) {
+  const bool hunts = hunts_as_listed(answer, followed, options);
+  if (start.end == "rest" ? rests_elsewhere(answer, start, followed) ||
+                                (hunts && is_decided_by_rounding(drive, start, followed, options))
+                          : hunts) {
     return true;
   }
-  if (start.end == "rest" && rests_elsewhere(answer, start, followed)) return true;
-  for (const double side : {-1.0, 1.0}) {
-    StartOutcome beside = start;
-    const double way = side * options.border * drive.gearbox.backlash;
-    beside.load_position += way;
-    beside.motor_position += way;
-    if (follow_with_time(drive, answer, beside, options).contradiction.empty()) return true;
+  for (const double share : {1.0, 0.5, 0.25, 0.125}) {
+    for (const double side : {-1.0, 1.0}) {
+      const double way = side * share * options.border * drive.gearbox.backlash;
+      const StartOutcome beside = displaced(start, way);
+      if (follow_with_time(drive, answer, beside, options).contradiction.empty()) return true;
+    }
   }
   return false;
 }

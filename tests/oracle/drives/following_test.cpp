@@ -56,6 +56,7 @@ TEST(Followed, ContradictsAWrongAnswer) {
   const std::size_t all = answer.search->starts.size();
   answer.cycles[0].amplitude *= 1.5;
   EXPECT_EQ(follow_all(hunting, answer).contradictions.size(), all);
+  answer.cycles[0].amplitude /= 1.5;  // the right motion is listed, and yet no start rests
   for (StartOutcome& start : answer.search->starts) start.end = "rest";
   answer.rest = Rest{.time = TimeToRest{.band = 0.01 * hunting.gearbox.backlash}};
   EXPECT_EQ(follow_all(hunting, answer).contradictions.size(), all);
