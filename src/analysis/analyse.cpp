@@ -201,7 +201,7 @@ void add_pieces(const std::vector<RestPiece>& pieces, Rest& rest) {
   }
   rest.load = load;
   rest.motor = motor;
-  rest.error = {-load.high, -load.low};
+  rest.error = {0.0 - load.high, 0.0 - load.low};  // no −0
 }
 
 RestPlace mirrored(const RestPlace& place) {
@@ -260,7 +260,7 @@ Rest rest_of(const drive::AttractorSearch& search, const drive::ReducedDrive& re
   };
   widen(rest.load, seen.load);
   widen(rest.motor, seen.motor);
-  rest.error = {-rest.load.high, -rest.load.low};
+  rest.error = {0.0 - rest.load.high, 0.0 - rest.load.low};
   rest.certainty = Certainty::searched;
   return rest;
 }

@@ -86,6 +86,20 @@ TEST(ComputedRest, OfAnIntegratorIsItsReading) {
   EXPECT_FALSE(rest_of(drive));
 }
 
+TEST(ComputedRest, OfAnIntegratorIsItsReferenceWithoutRounding) {
+  drive::ReducedDrive drive = dry_drive();
+  for (int i = 0; i < 1000; ++i) {
+    const double reference = 0.001 * i;
+    drive.reference = reference;
+    drive.controller = drive::ProportionalIntegralDerivative{.proportional = 10.0 + reference,
+                                                             .integral = 3.0 / (1.0 + reference)};
+    const auto rest = rest_of(drive);
+    ASSERT_TRUE(rest) << reference;
+    EXPECT_EQ(rest->load.low, 0.0) << reference;
+    EXPECT_EQ(rest->load.high, 0.0) << reference;
+  }
+}
+
 /// The torque of a reading k holds while |10 k step| ≤ 0.4: k ≤ 1, and the load within half a step.
 TEST(ComputedRest, OfAnEncoderEndsAtTheLastStepThatFrictionHolds) {
   drive::ReducedDrive drive = dry_drive();

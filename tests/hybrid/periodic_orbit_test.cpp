@@ -102,33 +102,28 @@ hybrid::HybridSystem alternating() {
           .clocks = {{.name = "sampler", .period = 1.0}}};
 }
 
-/// A number that goes to and fro between −1 and 2 in 6 s, beside a sine of 6283 s about its peak,
-/// which 6 s move by 2e-5 of it.
+/// A number that each second halves and pushes to either side in turn, beside a sine of 62,832 s,
+/// which 2 s move by 2e-4 of it.
 TEST(EdgePeriodicOrbit, UnderASineIsNoneThatTheSineDoesNotClose) {
-  constexpr double rate = 1e-3;
-  hybrid::HybridSystem system{.state_names = {"way", "sine", "cosine"}};
-  for (const double speed : {1.0, -1.0}) {
-    hybrid::AffineMode mode;
-    mode.name = speed > 0.0 ? "forward" : "backward";
-    mode.flow = {Matrix::Zero(3, 3), speed * Vector::Unit(3, 0)};
+  constexpr double rate = 1e-4;
+  hybrid::HybridSystem system{.state_names = {"pushed", "sine", "cosine"},
+                              .clocks = {{.name = "sampler", .first = 0.5, .period = 1.0}}};
+  for (const double push : {1.0, -1.0}) {
+    hybrid::AffineMode mode{.flow = {Matrix::Zero(3, 3), Vector::Zero(3)}};
     mode.flow.matrix(1, 2) = rate;
     mode.flow.matrix(2, 1) = -rate;
-    hybrid::Transition turns;
-    turns.name = "turns";
-    turns.guard = {speed * Vector::Unit(3, 0), speed > 0.0 ? -2.0 : -1.0};
-    turns.direction = hybrid::Direction::rising;
-    turns.target = speed > 0.0 ? 1 : 0;
-    mode.transitions.push_back(turns);
+    mode.timed = {{.name = "sample",
+                   .reset = {Vector{{0.5, 1.0, 1.0}}.asDiagonal(), push * Vector::Unit(3, 0), {}},
+                   .target = push > 0.0 ? 1U : 0U}};
     system.modes.push_back(mode);
   }
-  const hybrid::ShootingOptions options{.nearness = 1e-3};
   const auto closed = [&](double sine) {
     const hybrid::State start{0, Vector::Unit(3, 1) * sine};
-    return closing_orbit(system, simulate(system, start, {.until = 40.0}), options);
+    return closing_orbit(system, simulate(system, start, {.until = 40.0}), {.nearness = 1e-3});
   };
   const auto without = closed(0.0);
   ASSERT_TRUE(without);
-  EXPECT_NEAR(without->period, 6.0, 1e-12);
+  EXPECT_NEAR(without->period, 2.0, 1e-12);
   EXPECT_FALSE(closed(1.0));
 }
 

@@ -249,6 +249,18 @@ TEST(DecidedDrive, RestsUnderAConstantLoadTorque) {
   EXPECT_NEAR(answer.rest->load.high, 0.00367, 1e-12);
 }
 
+/// A load that is read as one step off the middle of a sine: the integral of that step, 3 µN m/s,
+/// takes ten hours to the 0.106 N m that the motor holds.
+TEST(DecidedDrive, HuntsUnderASineThatIsIntegratedOffItsMiddle) {
+  Drive drive = read_drive(data / "ends/stands-or-hunts-under-a-sine.toml");
+  drive.sensor.encoder.resolution = 8e-9;
+  drive::AttractorOptions options;
+  options.starts = {{.motor_position = -9.742e-6, .load_position = 9e-9}};
+  const auto found = drive::find_attractors(reduce(drive), options);
+  ASSERT_EQ(found.outcomes.size(), 1U);
+  EXPECT_EQ(found.outcomes[0].end, drive::MotionEnd::irregular);
+}
+
 /// A period of 1,000 s beside a filter of 5 ms.
 TEST(DecidedDrive, FollowsASlowSine) {
   drive::AttractorOptions options;

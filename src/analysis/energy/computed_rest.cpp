@@ -391,9 +391,14 @@ class Equilibria {
 
   void include(const Polytope& all) {
     const auto add_to = [&](Extent& extent, const Vector4d& form) {
-      if (const auto range = all.range_of(form)) {
-        extent.include(range->low);
-        extent.include(range->high);
+      const auto range = all.range_of(form);
+      if (!range) return;
+      // What rounding leaves of forces that cancel is nothing.
+      constexpr double rounding = 1e-12;
+      const double length =
+          std::max({drive_.backlash, std::abs(range->low), std::abs(range->high)});
+      for (const double end : {range->low, range->high}) {
+        extent.include(std::abs(end) > rounding * length ? end : 0.0);
       }
     };
     add_to(load_, unit(load));
