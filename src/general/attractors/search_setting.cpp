@@ -293,7 +293,8 @@ std::vector<ShaftStates> usual_starts(const SearchSetting& setting,
     add_offsets(-1.0, -1.0);
     add_offsets(-1.0, 1.0);
   }
-  // A motor that is read and starts on a face is half a gap away at least. Near by it may hunt alone.
+  // A motor that is read is half a gap away at least where it starts on a face. Near by it may hunt
+  // alone.
   const ReducedDrive& drive = setting.drive;
   if (drive.sensing.load_share_of_position < 1.0 && drive.motor.friction.is_dry()) {
     const double near = std::max(low, drive.sensing.resolution);

@@ -18,8 +18,9 @@ struct FollowOptions {
   double share = 0.02;                  ///< permitted difference of amplitudes, or an encoder step
   double irregular_share = 0.2;  ///< likewise of irregular motion, besides twice its deviation
   /// A start that contradicts is near a border if it hunts by another motion of the list, rests at
-  /// another place of the list, or one within this share of the gap from it does not contradict. One
-  /// called rest that hunts by a motion of the list is if a rounding decides where it is by then.
+  /// another place of the list, or one within this share of the gap from it does not contradict.
+  /// One called rest that hunts by a motion of the list is if a rounding decides where it is by
+  /// then.
   double border = 1e-3;
 };
 
