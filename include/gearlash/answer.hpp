@@ -255,16 +255,14 @@ struct Ceiling {
   bool is_below_limit = false;
   /// Whether a motion can stay off the limit: effort and holding torque together are below it.
   /// Empty if the effort has no ceiling, there is no limit, or the holding torque is not known: the
-  /// signals move, or with gravity or a ramp the controller does not know reference and position by
-  /// their difference alone.
+  /// signals move, or along a ramp the controller does not know reference and position by their
+  /// difference alone.
   std::optional<bool> meets_limit{};
   /// Starts that never meet the torque limit. Empty if none is proved.
   std::optional<SafeStarts> safe_starts{};
-  std::string safe_starts_reason{};  ///< why they are withheld, where a condition of a proof fails
   /// N m: no motion in the end has a larger mean of the mesh torque's size. Rigid faces, a
-  /// continuous controller, no dry friction, encoder or load torque; empty for others.
+  /// continuous controller, constant signals, no dry friction or encoder; empty for others.
   std::optional<double> mesh_torque{};
-  std::string mesh_torque_reason{};  ///< why it is withheld, where only one condition fails
   std::vector<CeilingTerm> terms{};  ///< what each source contributes
   /// The term "gap speed" is bounded by what brakes it, not by the width of the gap.
   bool is_gap_speed_braked = false;

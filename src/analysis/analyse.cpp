@@ -503,7 +503,6 @@ Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress,
   add_figures(analysis.reduced, wanted, analysis.answer, progress);
   if (wanted.ceiling) {
     analysis.answer.ceiling->mesh_torque = highest_mean_mesh_torque(analysis.reduced);
-    analysis.answer.ceiling->mesh_torque_reason = obstacle_of_mesh_torque(analysis.reduced);
   }
   // The motion from which a ceiling is measured stands in the end, unless a sine drives it.
   if (!is_driven(analysis.reduced)) withdraw_if_contradictory(analysis.answer);

@@ -30,17 +30,8 @@ std::string lower_bound_text(double radians, const AnswerReport& report) {
          unit.name;
 }
 
-std::string mesh_torque_text(const Ceiling& ceiling) {
-  if (ceiling.mesh_torque_reason.empty()) return "";
-  return "\n" + wrapped("No bound of the mean mesh torque: " + ceiling.mesh_torque_reason + ".");
-}
-
 std::string safe_starts_text(const AnswerReport& report) {
-  const Ceiling& ceiling = *report.answer.ceiling;
-  if (!ceiling.safe_starts_reason.empty()) {
-    return "\n" + wrapped("No safe starts: " + ceiling.safe_starts_reason + ".");
-  }
-  const std::optional<SafeStarts>& starts = ceiling.safe_starts;
+  const std::optional<SafeStarts>& starts = report.answer.ceiling->safe_starts;
   if (!starts) return "";
   return "\n" +
          wrapped(fmt::format(
@@ -83,7 +74,7 @@ std::string ceiling_text(const AnswerReport& report) {
   }
   return "\nCeiling: what no motion exceeds in the end" +
          std::string(ceiling.is_below_limit ? ", if its torque stays below the limit" : "") +
-         " (proved)\n" + table_text(rows) + mesh_torque_text(ceiling) + safe_starts_text(report);
+         " (proved)\n" + table_text(rows) + safe_starts_text(report);
 }
 
 std::string specification_text(const AnswerReport& report) {
@@ -129,9 +120,7 @@ nlohmann::ordered_json ceiling_json(const std::optional<Ceiling>& ceiling) {
           {"below_limit", ceiling->is_below_limit},
           {"meets_limit", ceiling->meets_limit ? Json(*ceiling->meets_limit) : Json(nullptr)},
           {"mesh_torque", json_optional(ceiling->mesh_torque)},
-          {"mesh_torque_reason", text(ceiling->mesh_torque_reason)},
           {"safe_starts", starts_json(ceiling->safe_starts)},
-          {"safe_starts_reason", text(ceiling->safe_starts_reason)},
           {"terms", json_list(ceiling->terms, [](const CeilingTerm& term) {
              return Json{{"source", term.source},
                          {"size", json_number(term.size)},

@@ -62,7 +62,7 @@ TEST(PropertyMeshTorque, IsNotExceededByTheMeanOfMotionThatIsFollowed) {
 TEST(EdgeMeshTorque, HasNoBoundWhereTheTheoremSaysNothing) {
   Drive drive = normal_form(0.19, 2.0, 0.1, 0.3);
   EXPECT_TRUE(highest_mean_mesh_torque(reduce(drive)));
-  drive.load_torque = 0.1;
+  drive.load_torque = SineSignal{.amplitude = 0.1, .frequency = 1.0};
   EXPECT_FALSE(highest_mean_mesh_torque(reduce(drive)));
   drive.load_torque.reset();
   drive::ReducedDrive with_dead_band = reduce(drive);

@@ -101,8 +101,8 @@ bool is_weighed(const EnclosedDrive& drive) {
 }
 
 /// Why they are not known: the reference or the load torque moves in another way than along a ramp,
-/// or as a sine of the load torque, which is a source, or the motion does not follow the reference.
-/// Empty if they are known.
+/// or as a sine of the load torque, which is a source, or the motion does not follow the ramp. Empty
+/// if they are known.
 std::string obstacle_of_carried(const EnclosedDrive& drive) {
   const ReducedDrive& form = drive.form();
   const bool has_ramp = std::holds_alternative<drive::Ramp>(form.reference);
@@ -111,9 +111,9 @@ std::string obstacle_of_carried(const EnclosedDrive& drive) {
       (has_ramp && is_weighed(drive))) {
     return "the reference or the load torque moves";
   }
-  if (!(has_ramp || is_weighed(drive)) || follows_reference(form)) return {};
-  return "with gravity or a ramp its proof needs a controller that knows reference and position by "
-         "their difference alone";
+  if (!has_ramp || follows_reference(form)) return {};
+  return "along a ramp its proof needs a controller that knows reference and position by their "
+         "difference alone";
 }
 
 /// Of rest, or of an even motion along a ramp. Precondition: no obstacle.
@@ -122,14 +122,20 @@ Carried carried_by(const EnclosedDrive& drive, DisturbedLoop& loop) {
   const Interval load_torque =
       drive.number([](const ReducedDrive& d) { return drive::middle_of(d.load_torque); });
   if (is_weighed(drive)) {
-    // A constant torque displaces the loop by no more than any torque of that size.
-    const LoopGain gain = loop.gain(Disturbance::torque_on_load);
-    const Interval displacement = abs(load_torque) * Interval(gain.load);
-    return Carried{abs(load_torque) * Interval(gain.effort),
-                   abs(load_torque) + abs(drive.number([](const ReducedDrive& d) {
-                                        return d.gravity.stiffness;
-                                      })) *
-                                          displacement};
+    // What is constant displaces the loop by no more than anything of that size.
+    const Interval reference = abs(
+        drive.number([](const ReducedDrive& d) { return std::get<double>(d.reference); }));
+    const LoopGain of_torque = loop.gain(Disturbance::torque_on_load);
+    const LoopGain of_reference = loop.gain(Disturbance::reference);
+    const auto displaced = [&](double LoopGain::* output) {
+      Interval sum = abs(load_torque) * Interval(of_torque.*output);
+      if (reference.high > 0.0) sum = sum + reference * Interval(of_reference.*output);
+      return sum;
+    };
+    const Interval weight =
+        abs(drive.number([](const ReducedDrive& d) { return d.gravity.stiffness; }));
+    return Carried{displaced(&LoopGain::effort),
+                   abs(load_torque) + weight * displaced(&LoopGain::load)};
   }
   Interval speed = 0.0;
   if (std::holds_alternative<drive::Ramp>(form.reference)) {
@@ -148,23 +154,12 @@ Carried carried_by(const EnclosedDrive& drive, DisturbedLoop& loop) {
 
 // ---- the gap's speed ----------------------------------------------------------------------------
 
-/// Whether the gap's acceleration jumps as the held torque changes. It is bounded at the starts of
-/// each hold, with the new torque, and not at their ends.
-bool jumps_between_holds(const EnclosedDrive& drive) {
-  const ReducedDrive& form = drive.form();
-  return form.sampling && form.winding.time_constant == 0.0 &&
-         drive.any_of([](const ReducedDrive& d) { return d.backlash > 0.0; });
-}
-
 /// Empty if the torque that the mesh carries is not known.
 std::optional<GapMotion> gap_motion(const EnclosedDrive& drive, DisturbedLoop& loop,
                                     const std::vector<ScaledSource>& sources,
                                     const std::optional<Carried>& carried) {
   using drive::RigidContact;
-  if (!carried || !std::holds_alternative<RigidContact>(drive.form().contact) ||
-      jumps_between_holds(drive)) {
-    return std::nullopt;
-  }
+  if (!carried || !std::holds_alternative<RigidContact>(drive.form().contact)) return std::nullopt;
   // Once the faces part the mesh torque is gone.
   Interval acceleration =
       abs(carried->mesh) * (1.0 / drive.number([](const ReducedDrive& d) {
@@ -251,22 +246,10 @@ void add_terms(const std::vector<ScaledSource>& sources, Ceiling& ceiling, Inter
 }
 
 /// Why the gap's speed has no bound.
-std::string obstacle_of_gap_speed(const EnclosedDrive& drive, const std::string& of_carried) {
-  std::string reason = of_carried;
-  if (reason.empty() && jumps_between_holds(drive)) {
-    reason = "its proof does not cover the end of each hold, where the torque jumps";
-  } else if (reason.empty()) {
-    reason = "elastic faces, or feedback of the speed that drives the gap";
-  }
-  return "the speed of the gap has no bound here: " + reason;
-}
-
-/// Why no safe starts are proved.
-std::string obstacle_of_starts(const ReducedDrive& form) {
-  if (form.backlash == 0.0 || !std::holds_alternative<drive::CompliantContact>(form.contact)) {
-    return {};
-  }
-  return "with compliant faces their proof does not cover a start within the gap";
+std::string obstacle_of_gap_speed(const std::string& of_carried) {
+  return "the speed of the gap has no bound here: " +
+         (of_carried.empty() ? "elastic faces, or feedback of the speed that drives the gap"
+                             : of_carried);
 }
 
 std::vector<ScaledSource> scaled_sources(const EnclosedDrive& drive, DisturbedLoop& loop) {
@@ -321,7 +304,7 @@ Ceiling ceiling_of(const EnclosedDrive& drive) {
       sources.push_back({{"gap speed", Disturbance::gap_speed, speed.highest}, gain});
       ceiling.is_gap_speed_braked = speed.is_braked;
     } else if (gain.load > 0.0 || gain.motor > 0.0) {
-      ceiling.reason = "a sampled tachometer: " + obstacle_of_gap_speed(drive, of_carried);
+      ceiling.reason = "a sampled tachometer: " + obstacle_of_gap_speed(of_carried);
       return ceiling;
     } else {
       effort = infinity;
@@ -333,7 +316,7 @@ Ceiling ceiling_of(const EnclosedDrive& drive) {
     ceiling.reason = "its bound is beyond the numbers of this computer";
     return ceiling;
   }
-  if (!ceiling.effort) ceiling.effort_reason = obstacle_of_gap_speed(drive, of_carried);
+  if (!ceiling.effort) ceiling.effort_reason = obstacle_of_gap_speed(of_carried);
   if (!carried || !ceiling.effort || !ceiling.is_below_limit || has_current_limit) return ceiling;
   margin.left = Interval(lowest_torque_limit(drive)) - abs(carried->requested) - effort;
   ceiling.meets_limit = margin.left.low >= 0.0;
@@ -342,11 +325,8 @@ Ceiling ceiling_of(const EnclosedDrive& drive) {
     margin.left = margin.left + Interval(*ceiling.terms.back().effort);
   }
   if (!*ceiling.meets_limit) return ceiling;
-  ceiling.safe_starts_reason = obstacle_of_starts(form);
-  if (ceiling.safe_starts_reason.empty()) {
-    ceiling.safe_starts = starts_within(
-        margin, *loop, 0.5 * drive.number([](const ReducedDrive& d) { return d.backlash; }));
-  }
+  ceiling.safe_starts = starts_within(
+      margin, *loop, 0.5 * drive.number([](const ReducedDrive& d) { return d.backlash; }));
   return ceiling;
 }
 

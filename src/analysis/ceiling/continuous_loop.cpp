@@ -21,6 +21,7 @@ struct LoopOutput {
   Interval of_torque_on_motor{0.0};
   Interval of_torque_on_load{0.0};
   Interval of_reading{0.0};
+  Interval of_reference{0.0};
 };
 
 struct Model {
@@ -30,6 +31,7 @@ struct Model {
   IntervalVector torque_on_motor{};
   IntervalVector torque_on_load{};
   IntervalVector reading{};
+  IntervalVector reference{};
   LoopOutput load{};
   LoopOutput motor{};
   LoopOutput effort{};
@@ -67,6 +69,7 @@ LoopOutput seen(const PlantOutput& output, const LoopOutput& torque) {
   result.of_torque_on_motor = output.of_torque_on_motor;
   result.of_torque_on_load = output.of_torque_on_load;
   result.of_reading = output.of_torque * torque.of_reading;
+  result.of_reference = output.of_torque * torque.of_reference;
   return result;
 }
 
@@ -92,6 +95,8 @@ Model connected(const Plant& plant, const EnclosedController& controller) {
   const std::size_t size = first + order;
   Model model{.flow = IntervalMatrix(size)};
   model.effort = sensed(plant, size, direct(1), direct(2));
+  model.effort.of_reference =
+      of_both(controller, [](const LinearController& c) -> auto& { return c.direct; });
   for (std::size_t i = 0; i < order; ++i) {
     model.effort.of_state[first + i] =
         controller.number([i](const LinearController& c) { return c.output[i]; });
@@ -104,6 +109,7 @@ Model connected(const Plant& plant, const EnclosedController& controller) {
   model.gap = added(extended(plant.gap, size), scaled(model.effort.of_gap, torque));
   model.gap_speed = scaled(model.effort.of_gap_speed, torque);
   model.reading = scaled(model.effort.of_reading, torque);
+  model.reference = scaled(model.effort.of_reference, torque);
   for (std::size_t i = 0; i < order; ++i) {
     LoopOutput slope = sensed(plant, size, input(i, 1), input(i, 2));
     for (std::size_t j = 0; j < order; ++j) {
@@ -114,6 +120,8 @@ Model connected(const Plant& plant, const EnclosedController& controller) {
     model.gap[first + i] = slope.of_gap;
     model.gap_speed[first + i] = slope.of_gap_speed;
     model.reading[first + i] = slope.of_reading;
+    model.reference[first + i] = of_both(
+        controller, [i](const LinearController& c) -> auto& { return c.input_matrix[i]; });
   }
   model.torque_on_motor = extended(plant.torque_on_motor, size);
   model.torque_on_load = extended(plant.torque_on_load, size);
@@ -169,6 +177,8 @@ class ContinuousLoop : public DisturbedLoop {
         return &model_.torque_on_load;
       case Disturbance::gap_speed:
         return nullptr;
+      case Disturbance::reference:
+        return &model_.reference;
       default:  // the speed is measured exactly
         return &model_.reading;
     }
@@ -183,6 +193,8 @@ class ContinuousLoop : public DisturbedLoop {
         return output.of_torque_on_load;
       case Disturbance::gap_speed:
         return output.of_gap_speed;
+      case Disturbance::reference:
+        return output.of_reference;
       default:
         return output.of_reading;
     }

@@ -16,6 +16,7 @@ enum class Disturbance {
   position_reading,  ///< rad, error of the position that the controller receives
   speed_reading,     ///< rad, error of the position whose differences are the speed
   both_readings,     ///< rad, of both, from one encoder
+  reference,         ///< rad, a reference that the position follows: of_both()
   gap_speed          ///< rad/s, as far as the controller reads it
 };
 
@@ -52,6 +53,16 @@ class DisturbedLoop {
   virtual bool reads_gap_speed() const = 0;
   virtual Interval gap_acceleration_per_speed() const = 0;  ///< 1/s; rigid faces only
 };
+
+/// What a row of the controller receives of a reference and of a position at it: the sum of both
+/// entries, which is 0 where it knows their difference alone.
+template <class Row>
+Interval of_both(const EnclosedController& controller, const Row& row) {
+  const auto differ = [&](const drive::LinearController& one) { return row(one)[0] != -row(one)[1]; };
+  if (!controller.any_of(differ)) return 0.0;
+  return controller.number([&](const drive::LinearController& one) { return row(one)[0]; }) +
+         controller.number([&](const drive::LinearController& one) { return row(one)[1]; });
+}
 
 /// Whether the controller's torque depends on the sensed speed.
 bool uses_speed(const drive::LinearController& controller);

@@ -162,7 +162,9 @@ Plant sprung_plant(const Data& data, const Interval& stiffness, const Interval& 
 
   plant.start_of_position[motor] = plant.start_of_position[load] = 1.0;
   plant.start_of_speed[motor_speed] = plant.start_of_speed[load_speed] = 1.0;
-  plant.start_of_gap[motor] = 1.0;
+  const Interval inertia = data.motor_inertia + data.load_inertia;
+  plant.start_of_gap[motor] = data.load_inertia / inertia;
+  plant.start_of_gap[load] = -(data.motor_inertia / inertia);
   return plant;
 }
 

@@ -28,6 +28,7 @@ struct SensedReading {
   Interval position{0.0};
   Interval counted{0.0};     ///< the position whose differences are the speed
   Interval tachometer{0.0};  ///< the speed
+  Interval reference{0.0};   ///< that the position follows
 };
 
 /// A number as a linear form of the state at a tick and of what is read there.
@@ -41,6 +42,7 @@ Form operator+(Form a, const Form& b) {
   a.of_reading.position = a.of_reading.position + b.of_reading.position;
   a.of_reading.counted = a.of_reading.counted + b.of_reading.counted;
   a.of_reading.tachometer = a.of_reading.tachometer + b.of_reading.tachometer;
+  a.of_reading.reference = a.of_reading.reference + b.of_reading.reference;
   return a;
 }
 
@@ -49,12 +51,13 @@ Form operator*(const Interval& factor, Form form) {
   form.of_reading.position = factor * form.of_reading.position;
   form.of_reading.counted = factor * form.of_reading.counted;
   form.of_reading.tachometer = factor * form.of_reading.tachometer;
+  form.of_reading.reference = factor * form.of_reading.reference;
   return form;
 }
 
 Interval product(const SensedReading& form, const SensedReading& read) {
   return form.position * read.position + form.counted * read.counted +
-         form.tachometer * read.tachometer;
+         form.tachometer * read.tachometer + form.reference * read.reference;
 }
 
 /// The times of a tick in which one torque is held.
@@ -70,6 +73,7 @@ struct Segment {
   Interval length;
   std::vector<Form> states;  ///< of the plant, at its start
   std::vector<Form> slopes;  ///< x′ at its start
+  std::vector<Form> ends;    ///< of the plant, at its end, where the torque jumps; else none
   Form torque;
 };
 
@@ -122,12 +126,12 @@ class SampledLoop : public DisturbedLoop {
   std::vector<Interval> norms(const IntervalVector& input, const std::vector<Form>& forms) const;
   std::vector<Interval> largest(const std::vector<Form>& forms, const Entry& entry) const;
   struct Extent {
-    Interval at_ends{0.0};  ///< the largest at the starts of the segments
+    Interval at_ends{0.0};  ///< the largest at the ends of the segments
     Interval bend{0.0};     ///< by how much more it may bend between them
   };
   struct Track {
-    std::vector<Form> forms;
-    std::vector<Interval> since_tick;  ///< what has acted since, by segments
+    std::vector<Form> forms;           ///< by segments two, then the ends of holds
+    std::vector<Interval> since_tick;  ///< what has acted since, by segments and ends
     std::vector<Interval> bends_since_tick;
   };
   Track track(const PlantOutput& output, const Entry& entry) const;
@@ -236,10 +240,15 @@ void SampledLoop::pass(const Hold& hold, int parts, std::vector<Form>& states) {
       slopes.push_back(combination(plant_.flow.rows[k], states) + plant_.torque[k] * hold.torque);
       next.push_back(combination(over.flow.rows[k], states) + over.of_inputs[0][k] * hold.torque);
     }
-    segments_.push_back({hold.from + static_cast<double>(i) * length, length, std::move(states),
-                         std::move(slopes), hold.torque});
+    segments_.push_back({.from = hold.from + static_cast<double>(i) * length,
+                         .length = length,
+                         .states = std::move(states),
+                         .slopes = std::move(slopes),
+                         .ends = {},
+                         .torque = hold.torque});
     states = std::move(next);
   }
+  segments_.back().ends = states;
 }
 
 /// What happens from one tick to the next, in segments: `parts` for each torque.
@@ -258,6 +267,8 @@ void SampledLoop::plan(int parts) {
     return controller_.number([i, j](const LinearController& c) { return c.input_matrix[i][j]; });
   };
   asked_ = reading(direct(1), direct(2));
+  asked_.of_reading.reference =
+      of_both(controller_, [](const LinearController& c) -> auto& { return c.direct; });
   for (std::size_t i = 0; i < order; ++i) {
     asked_.of_state[first_controller_state_ + i] =
         controller_.number([i](const LinearController& c) { return c.output[i]; });
@@ -269,6 +280,8 @@ void SampledLoop::plan(int parts) {
   next_ = std::move(states);
   for (std::size_t i = 0; i < order; ++i) {
     Form next = reading(input(i, 1), input(i, 2));
+    next.of_reading.reference = of_both(
+        controller_, [i](const LinearController& c) -> auto& { return c.input_matrix[i]; });
     for (std::size_t j = 0; j < order; ++j) {
       next.of_state[first_controller_state_ + j] =
           controller_.number([i, j](const LinearController& c) { return c.state_matrix[i][j]; });
@@ -329,6 +342,9 @@ Entry SampledLoop::entry(Disturbance disturbance) const {
       break;
     case Disturbance::gap_speed:
       entry.read.tachometer = plant_.speed.of_gap_speed;
+      break;
+    case Disturbance::reference:
+      entry.read.reference = 1.0;
       break;
   }
   return entry;
@@ -393,9 +409,12 @@ std::vector<Interval> SampledLoop::largest(const std::vector<Form>& forms,
   return result;
 }
 
-/// An output followed over a tick: two forms for each segment, its start and its bend.
+/// An output followed over a tick: two forms for each segment, its start and its bend. One that the
+/// torque moves at once jumps with it: then also the end of each hold, before the torque changes.
 SampledLoop::Track SampledLoop::track(const PlantOutput& output, const Entry& entry) const {
   Track track;
+  std::vector<Form> ends;
+  std::vector<Interval> since_tick_at_ends;
   Interval since_tick = 0.0;  // ∫|c e^{Aθ} b| up to the segment's start
   const IntervalVector second = times(output.of_state, plant_.flow);
   for (const Segment& segment : segments_) {
@@ -415,7 +434,14 @@ SampledLoop::Track SampledLoop::track(const PlantOutput& output, const Entry& en
     track.since_tick.push_back(since_tick);
     track.bends_since_tick.push_back(bend);
     since_tick = since_tick + segment.length * slope;
+    if (output.of_torque.low == 0.0 && output.of_torque.high == 0.0) continue;
+    if (segment.ends.empty()) continue;
+    ends.push_back(combination(output.of_state, segment.ends) + output.of_torque * segment.torque);
+    since_tick_at_ends.push_back(since_tick);
   }
+  track.forms.insert(track.forms.end(), ends.begin(), ends.end());
+  track.since_tick.insert(track.since_tick.end(), since_tick_at_ends.begin(),
+                          since_tick_at_ends.end());
   return track;
 }
 
@@ -426,6 +452,9 @@ SampledLoop::Extent SampledLoop::extent(const Track& track, const Interval* size
     extent.at_ends = max(extent.at_ends, sizes[2 * i] + track.since_tick[i]);
     extent.bend = max(extent.bend, square(segments_[i].length) / 8.0 *
                                        (sizes[2 * i + 1] + track.bends_since_tick[i]));
+  }
+  for (std::size_t i = segments_.size(); i < track.since_tick.size(); ++i) {
+    extent.at_ends = max(extent.at_ends, sizes[segments_.size() + i] + track.since_tick[i]);
   }
   return extent;
 }
@@ -445,7 +474,9 @@ LoopGain SampledLoop::gain(Disturbance disturbance) {
   }
   const std::vector<Interval> sizes = largest(forms, entry);
   const auto bound = [&](std::size_t which, const PlantOutput& output) {
-    const Extent extent = this->extent(tracks[which], &sizes[1 + 2 * segments_.size() * which]);
+    std::size_t before = 1;  // forms, of the effort and of the tracks before
+    for (std::size_t i = 0; i < which; ++i) before += tracks[i].forms.size();
+    const Extent extent = this->extent(tracks[which], &sizes[before]);
     Interval at_once = 0.0;
     if (disturbance == Disturbance::gap) at_once = output.of_gap;
     if (disturbance == Disturbance::torque_on_motor) at_once = output.of_torque_on_motor;

@@ -10,12 +10,18 @@ using drive::LinearController;
 using drive::ReducedDrive;
 using Polynomial = IntervalPolynomial;
 
-/// τ = −(position y + speed v)/denominator; of s.
+/// τ = (at_reference r − position y − speed v)/denominator; of s. The position is r + y.
 struct ControllerPolynomials {
   Polynomial denominator;
   Polynomial position;
   Polynomial speed;
+  Polynomial at_reference;
 };
+
+/// What a row of the controller receives of a reference and of a position at it.
+Interval of_both(const std::vector<double>& row) {
+  return row[0] == -row[1] ? Interval(0.0) : datum(row[0]) + datum(row[1]);
+}
 
 std::vector<std::vector<Interval>> times(const std::vector<std::vector<Interval>>& a,
                                          const std::vector<std::vector<Interval>>& b) {
@@ -41,23 +47,26 @@ ControllerPolynomials polynomials_of(const LinearController& controller) {
     for (std::size_t j = 0; j < order; ++j) flow[i][j] = datum(controller.state_matrix[i][j]);
     adjugate[i][i] = 1.0;
   }
-  ControllerPolynomials result{Polynomial(order + 1, Interval(0.0)),
-                               Polynomial(order + 1, Interval(0.0)),
-                               Polynomial(order + 1, Interval(0.0))};
+  const Polynomial zeros(order + 1, Interval(0.0));
+  ControllerPolynomials result{zeros, zeros, zeros, zeros};
   result.denominator[order] = 1.0;
-  const auto through = [&](std::size_t input) {
+  const auto through = [&](const auto& input) {
     Interval sum = 0.0;
     for (std::size_t i = 0; i < order; ++i) {
       for (std::size_t j = 0; j < order; ++j) {
         sum = sum + datum(controller.output[i]) * adjugate[i][j] *
-                        datum(controller.input_matrix[j][input]);
+                        input(controller.input_matrix[j]);
       }
     }
     return sum;
   };
+  const auto column = [](std::size_t input) {
+    return [input](const std::vector<double>& row) { return datum(row[input]); };
+  };
   for (std::size_t k = 1; k <= order; ++k) {
-    result.position[order - k] = -through(1);
-    result.speed[order - k] = -through(2);
+    result.position[order - k] = -through(column(1));
+    result.speed[order - k] = -through(column(2));
+    result.at_reference[order - k] = through(of_both);
     adjugate = times(flow, adjugate);
     Interval trace = 0.0;
     for (std::size_t i = 0; i < order; ++i) trace = trace + adjugate[i][i];
@@ -69,6 +78,8 @@ ControllerPolynomials polynomials_of(const LinearController& controller) {
   const Polynomial direct_speed{-datum(controller.direct[2])};
   result.position = sum(result.position, product(direct_position, result.denominator));
   result.speed = sum(result.speed, product(direct_speed, result.denominator));
+  result.at_reference =
+      sum(result.at_reference, product({of_both(controller.direct)}, result.denominator));
   return result;
 }
 
@@ -101,6 +112,7 @@ LoopPolynomials loop_polynomials(const ReducedDrive& drive) {
   LoopPolynomials loop{.denominator = requested.denominator,
                        .position = requested.position,
                        .speed = requested.speed,
+                       .at_reference = requested.at_reference,
                        .motor = {},
                        .load = {},
                        .closed = {}};

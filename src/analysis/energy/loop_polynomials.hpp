@@ -7,11 +7,13 @@
 namespace gearlash {
 
 /// With the gap u, the motor less the load, as an input: θ_L = −(motor/closed) u, and the mesh
-/// torque on the load is −(load motor/closed) u. τ = −(position y + speed v)/denominator.
+/// torque on the load is −(load motor/closed) u. τ = (at_reference r − position y − speed v)/denominator
+/// with y from the reference r, which is constant.
 struct LoopPolynomials {
   IntervalPolynomial denominator;  ///< of controller and winding
   IntervalPolynomial position;
   IntervalPolynomial speed;
+  IntervalPolynomial at_reference;
   IntervalPolynomial motor;   ///< times denominator
   IntervalPolynomial load;    ///< s (J_L s + F_L) + k_g
   IntervalPolynomial closed;  ///< the loop with the gap closed, times denominator

@@ -1,6 +1,6 @@
-// mean|N| ≤ (b/2) sup Re(H (1 − λ s)) on the imaginary axis, for every λ ≥ 0. λ is chosen in
-// floating point, where the largest of many frequencies is least; the supremum is proved by the
-// sign of a polynomial.
+// mean|N| ≤ |N₀| + (b/2) sup Re(H (1 − λ s)) on the imaginary axis, for every λ ≥ 0, with N₀ the
+// mesh torque of the rest without a gap. λ is chosen in floating point, where the largest of many
+// frequencies is least; the supremum is proved by the sign of a polynomial.
 #include "analysis/energy/mesh_torque.hpp"
 
 #include <algorithm>
@@ -8,7 +8,6 @@
 #include <complex>
 #include <vector>
 
-#include "analysis/ceiling/closed_gap.hpp"
 #include "analysis/energy/loop_polynomials.hpp"
 #include "base/datum.hpp"
 
@@ -86,33 +85,31 @@ bool is_above(const Interval& bound, const Polynomial& numerator, const Polynomi
   return is_positive(sum(product({bound}, size), product({-1.0}, response)));
 }
 
-/// Without gravity any rest carries no torque.
-bool rests_without_torque(const ReducedDrive& drive) {
-  return drive.gravity.stiffness == 0.0 || follows_reference(drive);
-}
-
-bool is_covered_unless_it_rests_with_torque(const ReducedDrive& drive) {
-  const auto* load_torque = std::get_if<double>(&drive.load_torque);
+bool is_covered(const ReducedDrive& drive) {
   return drive::has_linear_control(drive) &&
          std::holds_alternative<drive::RigidContact>(drive.contact) && !drive.sampling &&
          drive.sensing.resolution == 0.0 && !drive::has_dry_friction(drive) &&
-         load_torque != nullptr && *load_torque == 0.0 &&
+         std::holds_alternative<double>(drive.load_torque) &&
          std::holds_alternative<double>(drive.reference) &&
          drive::linear_controller(drive.controller).order() <= highest_order_of_polynomials;
 }
 
-}  // namespace
-
-std::string obstacle_of_mesh_torque(const ReducedDrive& drive) {
-  if (!is_covered_unless_it_rests_with_torque(drive) || rests_without_torque(drive)) return {};
-  return "with gravity its proof needs a controller that knows reference and position by their "
-         "difference alone";
+/// N₀ = k_g y₀ − w, with closed(0) y₀ = denominator(0) w + at_reference(0) r. Precondition: the loop
+/// is stable.
+Interval torque_at_rest(const ReducedDrive& drive, const LoopPolynomials& loop) {
+  const Interval load_torque = datum(std::get<double>(drive.load_torque));
+  if (drive.gravity.stiffness == 0.0) return -load_torque;
+  const Interval reference = datum(std::get<double>(drive.reference));
+  const Interval position = (loop.denominator.front() * load_torque +
+                             loop.at_reference.front() * reference) /
+                            loop.closed.front();
+  return datum(drive.gravity.stiffness) * position - load_torque;
 }
 
+}  // namespace
+
 std::optional<double> highest_mean_mesh_torque(const ReducedDrive& drive) {
-  if (!is_covered_unless_it_rests_with_torque(drive) || !rests_without_torque(drive)) {
-    return std::nullopt;
-  }
+  if (!is_covered(drive)) return std::nullopt;
   const LoopPolynomials loop = loop_polynomials(drive);
   if (!is_stable(loop.closed)) return std::nullopt;
   const Polynomial numerator = product({-1.0}, product(loop.load, loop.motor));
@@ -132,7 +129,7 @@ std::optional<double> highest_mean_mesh_torque(const ReducedDrive& drive) {
     constexpr double slack = 1e-3;
     const Interval bound = (1.0 + slack) * Interval(seen);
     if (is_above(bound, numerator, loop.closed, lambda)) {
-      return (0.5 * datum(drive.backlash) * bound).high;
+      return (abs(torque_at_rest(drive, loop)) + 0.5 * datum(drive.backlash) * bound).high;
     }
   }
   return std::nullopt;
