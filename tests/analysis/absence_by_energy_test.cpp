@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <map>
 #include <string>
 
 #include "analysis/energy/computed_rest.hpp"
+#include "base/drive_count.hpp"
 #include "base/seeded_draws.hpp"
 #include "closed_form/energy_balance.hpp"
 #include "gearlash/analyse.hpp"
@@ -174,11 +174,9 @@ struct Count {
 };
 
 /// No drive of the region keeps swinging, and all end where rest is computed to be. Prints which
-/// share of the drives that rest is proved. GEARLASH_DRIVES=2000 asks for more
-/// (docs/explanation/verification.md).
+/// share of the drives that rest is proved.
 TEST(PropertyAbsenceByEnergy, DrivesOfTheRegionComeToTheComputedRest) {
-  const char* asked = std::getenv("GEARLASH_DRIVES");
-  const int wanted = asked == nullptr ? 200 : std::atoi(asked);
+  const int wanted = test::drive_count(200);
   SeededDraws draws(1960);
   std::map<std::string, Count> counts;
   int proved = 0;

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 
+#include "base/drive_count.hpp"
 #include "base/seeded_draws.hpp"
 #include "closed_form/limit_cycle.hpp"
 #include "gearlash/analyse.hpp"
@@ -66,16 +66,10 @@ TEST(OracleCeiling, OfAFastComputerIsThatOfAContinuousController) {
 
 // ---- motion -------------------------------------------------------------------------------------
 
-/// GEARLASH_DRIVES=2000 asks for more (docs/explanation/verification.md).
-int count_of_drives(int usual) {
-  const char* asked = std::getenv("GEARLASH_DRIVES");
-  return asked == nullptr ? usual : std::atoi(asked);
-}
-
 TEST(PropertyCeiling, IsAboveEveryCycleOfTheServo) {
   SeededDraws draws(20261123);
   int hunting = 0;
-  for (int i = 0; i < count_of_drives(600); ++i) {
+  for (int i = 0; i < test::drive_count(600); ++i) {
     const NormalizedServo servo{.damping = draws.log_uniform(0.05, 2.0),
                                 .inertia_ratio = draws.log_uniform(0.01, 100.0),
                                 .friction_ratio = draws.uniform(0.0, 1.0),
@@ -160,7 +154,7 @@ TEST(PropertyCeiling, IsNotExceededByMotionThatIsFollowedForLong) {
   SeededDraws draws(7);
   int bounded = 0;
   double largest_share = 0.0;
-  for (int i = 0; i < count_of_drives(120); ++i) {
+  for (int i = 0; i < test::drive_count(120); ++i) {
     const RandomDrive random = random_drive(draws);
     const Ceiling ceiling = ceiling_of(reduce(random.drive));
     if (!ceiling.load) continue;

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <string>
 
+#include "base/drive_count.hpp"
 #include "base/seeded_draws.hpp"
 #include "gearlash/motion.hpp"
 #include "model/reduced_drive.hpp"
@@ -57,6 +58,44 @@ TEST(PropertyMeshTorque, IsNotExceededByTheMeanOfMotionThatIsFollowed) {
   std::printf("%d servos; the nearest came to %.3f of the bound\n", bounded, nearest);
   EXPECT_GT(bounded, 20);
   EXPECT_GT(nearest, 0.3);
+}
+
+/// A hanging or leaning load behind a controller of any gain of the reference, with a load torque:
+/// (k_g + P) y = (D_r − P) r + w by statics, and the faces carry k_g y − w.
+TEST(PropertyMeshTorque, IsNoLessThanThatOfRest) {
+  SeededDraws draws(20261130);
+  int bounded = 0;
+  double nearest = 0.0;
+  for (int i = 0; i < test::drive_count(60); ++i) {
+    const double proportional = draws.log_uniform(5.0, 50.0);
+    const double of_reference = proportional * draws.one_of({0.0, 0.5, 1.0, 2.0});
+    const double stiffness = draws.either_sign(0.1, 4.0);
+    Drive drive;
+    drive.motor = {.kind = TorqueControl{}, .inertia = 0.2, .friction = {.viscous = 1.0}};
+    drive.load = {.inertia = draws.log_uniform(0.1, 2.0),
+                  .friction = {.viscous = draws.log_uniform(0.2, 2.0)}};
+    drive.gearbox = {.ratio = 1.0, .backlash = draws.log_uniform(1e-4, 0.05)};
+    StateSpaceController controller{.gain = 1.0};
+    controller.D = {of_reference, -proportional, -draws.log_uniform(1.0, 6.0)};
+    drive.controller.law = controller;
+    drive::ReducedDrive reduced = reduce(drive);
+    const double reference = draws.uniform(-1.0, 1.0);
+    const double load_torque = draws.one_of({0.0, 1.0}) * draws.uniform(-2.0, 2.0);
+    reduced.reference = reference;
+    reduced.load_torque = load_torque;
+    reduced.gravity.stiffness = stiffness;
+    const auto highest = highest_mean_mesh_torque(reduced);
+    if (!highest) continue;
+    ++bounded;
+    SCOPED_TRACE("drive " + std::to_string(i));
+    const double position =
+        ((of_reference - proportional) * reference + load_torque) / (stiffness + proportional);
+    const double carried = std::abs(stiffness * position - load_torque);
+    EXPECT_GE(*highest, carried);
+    nearest = std::max(nearest, carried / *highest);
+  }
+  EXPECT_GT(bounded, 30);
+  EXPECT_GT(nearest, 0.9);
 }
 
 TEST(EdgeMeshTorque, HasNoBoundWhereTheTheoremSaysNothing) {

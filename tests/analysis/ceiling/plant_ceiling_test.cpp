@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/ceiling/ceiling.hpp"
+#include "base/drive_count.hpp"
 #include "base/seeded_draws.hpp"
 #include "leaping_drive.hpp"
 
@@ -66,7 +67,11 @@ PDDrive random_drive(SeededDraws& draws, Kind kind) {
 struct Variation {
   double load = 0.0;
   double motor = 0.0;
+  double late = 0.0;  ///< of the load's, in the last tenth of the time
 };
+
+/// Whether a sum is all but whole: else it bounds the ceiling from below alone.
+bool has_ended(double late, double sum) { return late <= 1e-4 * sum; }
 
 Variation variation_after_leap(const PDDrive& given) {
   constexpr double step = 2e-3;
@@ -81,7 +86,9 @@ Variation variation_after_leap(const PDDrive& given) {
     const double load = leaping.load_position();
     const double motor = leaping.motor_position();
     leaping.go_on(step, 1, requested);
-    sum.load += std::abs(leaping.load_position() - load);
+    const double change = std::abs(leaping.load_position() - load);
+    sum.load += change;
+    if (10 * i > 9 * steps) sum.late += change;
     sum.motor += std::abs(leaping.motor_position() - motor);
   }
   return sum;
@@ -91,7 +98,7 @@ TEST(OracleCeilingOfPlants, IsTheVariationAfterALeapOfTheGap) {
   SeededDraws draws(20261126);
   for (const Kind kind : {Kind::winding, Kind::weighed, Kind::sprung, Kind::sprung_with_winding}) {
     int proved = 0;
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < test::drive_count(24) / 4; ++i) {
       const PDDrive given = random_drive(draws, kind);
       const Ceiling ceiling = ceiling_of(given.drive);
       SCOPED_TRACE("kind " + std::to_string(static_cast<int>(kind)) + ", case " +
@@ -100,8 +107,9 @@ TEST(OracleCeilingOfPlants, IsTheVariationAfterALeapOfTheGap) {
       ++proved;
       const Variation sum = variation_after_leap(given);
       EXPECT_GE(*ceiling.load, sum.load * (1.0 - 1e-5));
-      EXPECT_LE(*ceiling.load, sum.load * 1.001);
       EXPECT_GE(*ceiling.motor, sum.motor * (1.0 - 1e-5));
+      if (!has_ended(sum.late, sum.load)) continue;
+      EXPECT_LE(*ceiling.load, sum.load * 1.001);
       EXPECT_LE(*ceiling.motor, sum.motor * 1.001);
     }
     EXPECT_GE(proved, 3) << static_cast<int>(kind);
@@ -159,14 +167,19 @@ std::vector<double> answer_to_leap(const PDDrive& given, int leap, int parts, in
 }
 
 /// The largest that a gap within ±1, constant over each part of a tick, can cause.
-double summed_answers(const PDDrive& given, int parts, int ticks) {
+struct SummedAnswers {
+  double all = 0.0;
+  double late = 0.0;  ///< of the last tenth of the ticks
+};
+
+SummedAnswers summed_answers(const PDDrive& given, int parts, int ticks) {
   std::vector<std::vector<double>> answers;
   for (int leap = 0; leap < parts; ++leap) {
     answers.push_back(answer_to_leap(given, leap, parts, ticks));
   }
-  double largest = 0.0;
+  SummedAnswers largest;
   for (int phase = 0; phase < parts; ++phase) {
-    double sum = 0.0;
+    SummedAnswers sum;
     for (int leap = 0; leap < parts; ++leap) {
       for (int seen = phase; seen < parts * ticks; seen += parts) {
         if (seen < leap) continue;
@@ -176,10 +189,12 @@ double summed_answers(const PDDrive& given, int parts, int ticks) {
         const double next = leap + 1 < parts ? answers[part + 1][k]
                             : seen >= parts  ? answers[0][k - period]
                                              : 0.0;
-        sum += std::abs(answers[part][k] - next);
+        const double change = std::abs(answers[part][k] - next);
+        sum.all += change;
+        if (10 * seen > 9 * parts * ticks) sum.late += change;
       }
     }
-    largest = std::max(largest, sum);
+    if (sum.all > largest.all) largest = sum;
   }
   return largest;
 }
@@ -195,7 +210,8 @@ void sample(PDDrive& given, SeededDraws& draws) {
 TEST(OracleCeilingOfPlants, OfPlainOnesUnderAComputerIsTheSumOfTheAnswers) {
   SeededDraws draws(1960);
   int proved = 0;
-  for (int i = 0; i < 12; ++i) {
+  const int count = test::drive_count(12);
+  for (int i = 0; i < count; ++i) {
     PDDrive given;
     draw_shafts(given.drive, 0.01, draws);
     draw_controller(given, draws);
@@ -205,18 +221,18 @@ TEST(OracleCeilingOfPlants, OfPlainOnesUnderAComputerIsTheSumOfTheAnswers) {
     SCOPED_TRACE("case " + std::to_string(i));
     if (!ceiling.load) continue;
     ++proved;
-    const double summed = summed_answers(given, 32, 800);
-    EXPECT_GE(*ceiling.load, summed * (1.0 - 1e-9));
-    EXPECT_LE(*ceiling.load, summed * 1.02);
+    const SummedAnswers summed = summed_answers(given, 32, 800);
+    EXPECT_GE(*ceiling.load, summed.all * (1.0 - 1e-9));
+    if (has_ended(summed.late, summed.all)) EXPECT_LE(*ceiling.load, summed.all * 1.02);
   }
-  EXPECT_GT(proved, 8);
+  EXPECT_GT(3 * proved, 2 * count);
 }
 
 TEST(OracleCeilingOfPlants, UnderAComputerIsTheSumOfTheAnswers) {
   SeededDraws draws(1960);
   for (const Kind kind : {Kind::winding, Kind::weighed, Kind::sprung, Kind::sprung_with_winding}) {
     int proved = 0;
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < test::drive_count(16) / 4; ++i) {
       PDDrive given = random_drive(draws, kind);
       sample(given, draws);
       const Ceiling ceiling = ceiling_of(given.drive);
@@ -224,10 +240,10 @@ TEST(OracleCeilingOfPlants, UnderAComputerIsTheSumOfTheAnswers) {
                    std::to_string(i));
       if (!ceiling.load) continue;
       ++proved;
-      const double summed = summed_answers(given, 16, 1200);
-      EXPECT_GE(*ceiling.load, summed * (1.0 - 1e-6));
+      const SummedAnswers summed = summed_answers(given, 16, 1200);
+      EXPECT_GE(*ceiling.load, summed.all * (1.0 - 1e-6));
       // A gap that is constant over the parts does a little less than a free one.
-      EXPECT_LE(*ceiling.load, summed * 1.05);
+      if (has_ended(summed.late, summed.all)) EXPECT_LE(*ceiling.load, summed.all * 1.05);
     }
     EXPECT_GE(proved, 2) << static_cast<int>(kind);
   }
