@@ -19,6 +19,7 @@
 #include "analysis/linear_loop.hpp"
 #include "analysis/repetition.hpp"
 #include "analysis/step_response.hpp"
+#include "base/arithmetic.hpp"
 #include "base/interval.hpp"
 #include "base/range_check.hpp"
 #include "general/attractors/search_setting.hpp"
@@ -510,6 +511,10 @@ Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress,
     analysis.answer.is_quantization = is_quantization(drive, *analysis.search, wanted, progress);
   }
   std::vector<Note> notes = notes_on(drive);
+  if (!proves()) {
+    notes.push_back(
+        {"arithmetic", "Nothing is proved: " + std::string(fault_of_arithmetic()) + "."});
+  }
   analysis.answer.notes.insert(analysis.answer.notes.begin(), notes.begin(), notes.end());
   return analysis;
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/arithmetic.hpp"
 #include "base/special_numbers.hpp"
 #include "closed_form/boxed_half_cycle.hpp"
 
@@ -105,8 +106,9 @@ ServoBox box_of(const NormalizedServo& servo, Reading reading) {
 
 CycleBounds bound_cycles(const ServoBox& box, double guessed_flight_time,
                          MultiplierBounds multiplier) {
-  const detail::BoxedHalfCycle half(box);
   CycleBounds bounds;
+  if (!proves()) return bounds;
+  const detail::BoxedHalfCycle half(box);
   bounds.growth_at_rest = half.growth_at_rest().bounds();
   if (bounds.none_hunt() || !(guessed_flight_time > 0.0)) return bounds;
   if (!(half.form_at_parting().low > 0.0)) return bounds;

@@ -87,7 +87,8 @@ TEST(RegressionBound, GapSpeedOfASampledTachometerWhoseTorqueJumps) {
 // ---- safe starts --------------------------------------------------------------------------------
 
 /// They were stated as 0.17536 rad, with the gap at the start as a position of the motor alone; by
-/// their definition, in floating point (scipy's eigenvalues, 2,000,000 steps), they are 0.172417547.
+/// their definition, in floating point (scipy's eigenvalues, 2,000,000 steps), they are
+/// 0.172417547.
 TEST(RegressionBound, SafeStartsWithCompliantFaces) {
   const Ceiling found = ceiling(drive_of("compliant-faces"));
   EXPECT_EQ(found.meets_limit, true);

@@ -12,6 +12,7 @@
 #include "analysis/ceiling/closed_gap.hpp"
 #include "analysis/ceiling/gap_speed.hpp"
 #include "analysis/ceiling/loop_gain.hpp"
+#include "base/arithmetic.hpp"
 #include "base/datum.hpp"
 
 namespace gearlash {
@@ -101,8 +102,8 @@ bool is_weighed(const EnclosedDrive& drive) {
 }
 
 /// Why they are not known: the reference or the load torque moves in another way than along a ramp,
-/// or as a sine of the load torque, which is a source, or the motion does not follow the ramp. Empty
-/// if they are known.
+/// or as a sine of the load torque, which is a source, or the motion does not follow the ramp.
+/// Empty if they are known.
 std::string obstacle_of_carried(const EnclosedDrive& drive) {
   const ReducedDrive& form = drive.form();
   const bool has_ramp = std::holds_alternative<drive::Ramp>(form.reference);
@@ -123,11 +124,11 @@ Carried carried_by(const EnclosedDrive& drive, DisturbedLoop& loop) {
       drive.number([](const ReducedDrive& d) { return drive::middle_of(d.load_torque); });
   if (is_weighed(drive)) {
     // What is constant displaces the loop by no more than anything of that size.
-    const Interval reference = abs(
-        drive.number([](const ReducedDrive& d) { return std::get<double>(d.reference); }));
+    const Interval reference =
+        abs(drive.number([](const ReducedDrive& d) { return std::get<double>(d.reference); }));
     const LoopGain of_torque = loop.gain(Disturbance::torque_on_load);
     const LoopGain of_reference = loop.gain(Disturbance::reference);
-    const auto displaced = [&](double LoopGain::* output) {
+    const auto displaced = [&](double LoopGain::*output) {
       Interval sum = abs(load_torque) * Interval(of_torque.*output);
       if (reference.high > 0.0) sum = sum + reference * Interval(of_reference.*output);
       return sum;
@@ -265,9 +266,12 @@ std::vector<ScaledSource> scaled_sources(const EnclosedDrive& drive, DisturbedLo
   return sources;
 }
 
-double lowest_torque_limit(const EnclosedDrive& drive) {
+/// Infinite without one.
+Interval lowest_torque_limit(const EnclosedDrive& drive) {
   double lowest = infinity;
-  for (const ReducedDrive& end : drive.ends()) lowest = std::min(lowest, end.torque_limit);
+  for (const ReducedDrive& end : drive.ends()) {
+    if (std::isfinite(end.torque_limit)) lowest = std::min(lowest, datum(end.torque_limit).low);
+  }
   return lowest;
 }
 
@@ -277,6 +281,7 @@ Ceiling ceiling_of(const EnclosedDrive& drive) {
   const ReducedDrive& form = drive.form();
   Ceiling ceiling;
   ceiling.reason = obstacle(form);
+  if (ceiling.reason.empty()) ceiling.reason = fault_of_arithmetic();
   if (!ceiling.reason.empty()) return ceiling;
   const std::unique_ptr<DisturbedLoop> loop =
       form.sampling ? sampled_loop(drive) : continuous_loop(drive);
@@ -318,7 +323,7 @@ Ceiling ceiling_of(const EnclosedDrive& drive) {
   }
   if (!ceiling.effort) ceiling.effort_reason = obstacle_of_gap_speed(of_carried);
   if (!carried || !ceiling.effort || !ceiling.is_below_limit || has_current_limit) return ceiling;
-  margin.left = Interval(lowest_torque_limit(drive)) - abs(carried->requested) - effort;
+  margin.left = lowest_torque_limit(drive) - abs(carried->requested) - effort;
   ceiling.meets_limit = margin.left.low >= 0.0;
   if (loop->reads_gap_speed()) {
     // The line above the gap's speed replaces its term.

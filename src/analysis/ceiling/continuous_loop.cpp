@@ -120,8 +120,8 @@ Model connected(const Plant& plant, const EnclosedController& controller) {
     model.gap[first + i] = slope.of_gap;
     model.gap_speed[first + i] = slope.of_gap_speed;
     model.reading[first + i] = slope.of_reading;
-    model.reference[first + i] = of_both(
-        controller, [i](const LinearController& c) -> auto& { return c.input_matrix[i]; });
+    model.reference[first + i] =
+        of_both(controller, [i](const LinearController& c) -> auto& { return c.input_matrix[i]; });
   }
   model.torque_on_motor = extended(plant.torque_on_motor, size);
   model.torque_on_load = extended(plant.torque_on_load, size);

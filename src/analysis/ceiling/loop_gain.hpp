@@ -58,7 +58,9 @@ class DisturbedLoop {
 /// entries, which is 0 where it knows their difference alone.
 template <class Row>
 Interval of_both(const EnclosedController& controller, const Row& row) {
-  const auto differ = [&](const drive::LinearController& one) { return row(one)[0] != -row(one)[1]; };
+  const auto differ = [&](const drive::LinearController& one) {
+    return row(one)[0] != -row(one)[1];
+  };
   if (!controller.any_of(differ)) return 0.0;
   return controller.number([&](const drive::LinearController& one) { return row(one)[0]; }) +
          controller.number([&](const drive::LinearController& one) { return row(one)[1]; });

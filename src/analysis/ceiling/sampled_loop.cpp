@@ -280,8 +280,8 @@ void SampledLoop::plan(int parts) {
   next_ = std::move(states);
   for (std::size_t i = 0; i < order; ++i) {
     Form next = reading(input(i, 1), input(i, 2));
-    next.of_reading.reference = of_both(
-        controller_, [i](const LinearController& c) -> auto& { return c.input_matrix[i]; });
+    next.of_reading.reference =
+        of_both(controller_, [i](const LinearController& c) -> auto& { return c.input_matrix[i]; });
     for (std::size_t j = 0; j < order; ++j) {
       next.of_state[first_controller_state_ + j] =
           controller_.number([i, j](const LinearController& c) { return c.state_matrix[i][j]; });

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/energy/loop_polynomials.hpp"
+#include "base/arithmetic.hpp"
 #include "base/datum.hpp"
 
 namespace gearlash {
@@ -25,7 +26,7 @@ bool is_at_rest_for_ever(const drive::Signal& signal) {
 }  // namespace
 
 bool is_absent_by_energy(const ReducedDrive& drive) {
-  if (!drive::has_linear_control(drive) || std::isfinite(drive.winding.torque_limit) ||
+  if (!proves() || !drive::has_linear_control(drive) || std::isfinite(drive.winding.torque_limit) ||
       drive.sampling || drive.sensing.resolution > 0.0 || std::isfinite(drive.torque_limit) ||
       !is_at_rest_for_ever(drive.reference) || !is_at_rest_for_ever(drive.load_torque) ||
       drive::linear_controller(drive.controller).order() > highest_order_of_polynomials) {

@@ -54,8 +54,8 @@ ControllerPolynomials polynomials_of(const LinearController& controller) {
     Interval sum = 0.0;
     for (std::size_t i = 0; i < order; ++i) {
       for (std::size_t j = 0; j < order; ++j) {
-        sum = sum + datum(controller.output[i]) * adjugate[i][j] *
-                        input(controller.input_matrix[j]);
+        sum =
+            sum + datum(controller.output[i]) * adjugate[i][j] * input(controller.input_matrix[j]);
       }
     }
     return sum;

@@ -7,8 +7,8 @@
 namespace gearlash {
 
 /// With the gap u, the motor less the load, as an input: θ_L = −(motor/closed) u, and the mesh
-/// torque on the load is −(load motor/closed) u. τ = (at_reference r − position y − speed v)/denominator
-/// with y from the reference r, which is constant.
+/// torque on the load is −(load motor/closed) u. τ = (at_reference r − position y − speed
+/// v)/denominator with y from the reference r, which is constant.
 struct LoopPolynomials {
   IntervalPolynomial denominator;  ///< of controller and winding
   IntervalPolynomial position;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/energy/loop_polynomials.hpp"
+#include "base/arithmetic.hpp"
 #include "base/datum.hpp"
 
 namespace gearlash {
@@ -94,22 +95,22 @@ bool is_covered(const ReducedDrive& drive) {
          drive::linear_controller(drive.controller).order() <= highest_order_of_polynomials;
 }
 
-/// N₀ = k_g y₀ − w, with closed(0) y₀ = denominator(0) w + at_reference(0) r. Precondition: the loop
-/// is stable.
+/// N₀ = k_g y₀ − w, with closed(0) y₀ = denominator(0) w + at_reference(0) r. Precondition: the
+/// loop is stable.
 Interval torque_at_rest(const ReducedDrive& drive, const LoopPolynomials& loop) {
   const Interval load_torque = datum(std::get<double>(drive.load_torque));
   if (drive.gravity.stiffness == 0.0) return -load_torque;
   const Interval reference = datum(std::get<double>(drive.reference));
-  const Interval position = (loop.denominator.front() * load_torque +
-                             loop.at_reference.front() * reference) /
-                            loop.closed.front();
+  const Interval position =
+      (loop.denominator.front() * load_torque + loop.at_reference.front() * reference) /
+      loop.closed.front();
   return datum(drive.gravity.stiffness) * position - load_torque;
 }
 
 }  // namespace
 
 std::optional<double> highest_mean_mesh_torque(const ReducedDrive& drive) {
-  if (!is_covered(drive)) return std::nullopt;
+  if (!proves() || !is_covered(drive)) return std::nullopt;
   const LoopPolynomials loop = loop_polynomials(drive);
   if (!is_stable(loop.closed)) return std::nullopt;
   const Polynomial numerator = product({-1.0}, product(loop.load, loop.motor));
