@@ -18,7 +18,10 @@ import unicodedata
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WORDS = ROOT / "docs/spelling.txt"
 MOST_WORDS = 20  # in the mean of a page
-FORMULAS = {"docs/explanation/mathematics.md"}  # its proofs have sentences that formulas carry
+# Pages whose proofs have sentences that formulas carry.
+FORMULAS = {f"docs/explanation/{name}.md" for name in
+            ("absence-by-energy", "boxes", "ceiling", "describing-functions", "every-motion",
+             "motions", "servo")}
 
 LINK = re.compile(r"(?<!\\)\[((?:[^\[\]]|\[[^\[\]]*\])*)\]\(([^)\s]+)\)")
 

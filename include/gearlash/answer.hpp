@@ -242,7 +242,7 @@ struct SafeStarts {
 /// A proved bound of every motion in the end, hunting of any kind included: how far it can be from
 /// the motion of the loop with the gap closed, without dry friction and encoder, under the same
 /// reference and load torque; a sine of the load torque is not part of that motion but a term. Each
-/// bound is the sum of its terms (docs/explanation/mathematics.md, "The ceiling").
+/// bound is the sum of its terms (docs/explanation/ceiling.md).
 struct Ceiling {
   std::optional<double> load{};   ///< rad; empty if there is none
   std::optional<double> motor{};  ///< rad, at the load's shaft

@@ -20,7 +20,7 @@ struct BouncingCycles {
                                                  ///< of those that did not
 };
 
-/// Four stages (docs/explanation/mathematics.md, Bounces):
+/// Four stages (docs/explanation/servo.md, Bounces):
 ///   a scan of the line on which faces part, from the largest amplitude that can last down to that
 ///   below which motion creeps (parting_scan.hpp). Where bounces settle, the amplitude at the
 ///   parting is the whole state, and each change of sign of its growth is a cycle. If the map rises

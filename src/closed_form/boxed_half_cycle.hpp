@@ -20,7 +20,7 @@ struct BoxedEnd {
 };
 
 /// Half cycles that part at the speed 1. Those of a massless load part at rest, at the position 1.
-/// Formulas: docs/explanation/mathematics.md, "One cycle or none" and "Bounds over boxes".
+/// Formulas: docs/explanation/servo.md, "One cycle or none", and docs/explanation/boxes.md.
 class BoxedHalfCycle {
  public:
   explicit BoxedHalfCycle(const ServoBox& box);

@@ -39,7 +39,7 @@ struct SettlingBounces {
 /// over them. With a = s N/(J_M J_L) the pressing acceleration, a′ its rate, κ = c J_L + D J_M the
 /// drag on the gap's motion and s₀ = |u̇|/a, the remaining bounces take
 ///   T = T₀ (1 − T₀ (κ + 2a′/a)/6),   T₀ = 2 s₀/(1 − e),
-/// to third order in T₀ (derivation: docs/explanation/mathematics.md). At their end the faces are
+/// to third order in T₀ (derivation: docs/explanation/motions.md). At their end the faces are
 /// engaged in the state that the engaged flow would have reached over T, to the same order.
 /// `imminent` is set if T₀ times the rates involved is below 1e-5. The third order, which is left
 /// out, is then about 1e-15. This is an estimate, because its factor is not bounded. Precondition:
@@ -49,7 +49,7 @@ SettlingBounces settling_bounces(const ServoDynamics& dynamics, FaceSign face, d
 
 /// The remaining nearly elastic bounces (1 − e ≤ 1e-3), which shrink too slowly to be followed one
 /// by one. While the faces are pressed together their action p³/a falls as e^{−κt}, and no faster
-/// if e = 1 (adiabatic invariance; docs/explanation/mathematics.md). `imminent` is set, with
+/// if e = 1 (adiabatic invariance; docs/explanation/motions.md). `imminent` is set, with
 /// duration 0, if more than 1e4 bounces are to come before the faces part, and
 ///   the height p²/(2a) is below 1e-8 of the motion (and below 1e-4 of the backlash),
 ///   the common motion is displaced by less than 1e-9 of itself or of the backlash,

@@ -69,7 +69,7 @@ enum class MultiplierBounds { left_out, wanted };
 /// growth of a half cycle in its flight time. So the bounds tighten in proportion to the width of
 /// the box. `guessed_flight_time` belongs to a hunting servo in the box; NaN if none is known. A
 /// good guess makes the bounds narrower; they hold for any. Sources: Moore, Interval Analysis
-/// (1966), chapter 4; the monotony: docs/explanation/mathematics.md.
+/// (1966), chapter 4; the monotony: docs/explanation/boxes.md.
 CycleBounds bound_cycles(const ServoBox& box, double guessed_flight_time,
                          MultiplierBounds multiplier = MultiplierBounds::left_out);
 

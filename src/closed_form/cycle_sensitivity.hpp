@@ -55,7 +55,7 @@ struct CycleSensitivity {
 /// for ζ ≥ 0.01, eight times that for μ₀ − 1 from 0.1 down to 1e-10, and for ζ down to 1e-6
 /// (tests/closed_form, against many digits). A refinement takes about 30 µs.
 ///   The derivatives by e are 0 from above: bounces end after a time of order e, and the faces then
-/// engage in the state of the engaged motion, to third order in e (docs/explanation/mathematics.md,
+/// engage in the state of the engaged motion, to third order in e (docs/explanation/motions.md,
 /// Settling). Over whole bounces ∫u̇ dt = 0, so only the distance of height ½e²u̇²/a over a time
 /// 2e|u̇|/a acts. Amplitude, period, multiplier and growth at rest thus change as e³.
 ///

@@ -13,7 +13,7 @@ namespace gearlash {
 /// reference. The condition is sufficient, not necessary. Seen from the gap the rest of the servo
 /// is linear, N = H(s) u for the mesh torque N, and Im H(jω) < 0 for all ω > 0 exactly when the
 /// condition holds. A contact absorbs ∫N u̇ dt ≥ 0 (theorem and proof:
-/// docs/explanation/mathematics.md, Absence by energy). The polynomial is decided exactly, in
+/// docs/explanation/absence-by-energy.md). The polynomial is decided exactly, in
 /// rational numbers, for the doubles themselves or for the decimals that they represent.
 /// Precondition: validate(servo) is empty, and the reading is exact or decimal: converted numbers
 /// make a box.

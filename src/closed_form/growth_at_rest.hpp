@@ -20,7 +20,7 @@ namespace gearlash {
 /// lies between c and D. With 0 < e ≤ 1 the simulator follows the bounces (which do not reach the
 /// far face, because the motion is small against the gap). NaN if e is so close to 1 that more than
 /// 200,000 bounces would have to be followed. Infinity for zero damping with plastic contact.
-/// Proofs: docs/explanation/mathematics.md.
+/// Proofs: docs/explanation/servo.md.
 double growth_at_rest(const ServoDynamics& dynamics);
 
 }  // namespace gearlash

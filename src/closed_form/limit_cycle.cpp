@@ -11,7 +11,7 @@
 namespace gearlash {
 namespace {
 
-/// Plastic contact: the theorem of docs/explanation/mathematics.md decides.
+/// Plastic contact: the theorem of docs/explanation/servo.md decides.
 void analyse_plastic(const ServoDynamics& dynamics, LimitCycleAnalysis& analysis) {
   analysis.certainty =
       std::isinf(analysis.growth_at_rest) ? Certainty::theorem : Certainty::computed;

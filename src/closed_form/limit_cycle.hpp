@@ -51,11 +51,11 @@ struct LimitCycleAnalysis {
   Certainty certainty = Certainty::searched;
   double growth_at_rest = std::numeric_limits<double>::quiet_NaN();  ///< μ₀, see growth_at_rest()
   /// Whether no restitution can make it hunt: 1/c + 1/D ≤ 2ζ, decided exactly for the given numbers
-  /// (docs/explanation/mathematics.md, Absence by energy).
+  /// (docs/explanation/absence-by-energy.md).
   bool is_dissipative = false;
   /// Whether some motions end at rest with the faces together, on either: ζ ≥ 1. Such a servo has
   /// rest beside its limit cycle: small motion in the gap grows, and a large one ends with the
-  /// faces together (docs/explanation/mathematics.md, One cycle or none).
+  /// faces together (docs/explanation/servo.md, One cycle or none).
   bool rests_engaged = false;
   /// Whether some cycles could not be separated from their neighbours, because their multiplier is
   /// 1 to within rounding (on a boundary in the parameters, or ζ below 1e-9). They are not listed.
@@ -73,7 +73,7 @@ struct LimitCycleAnalysis {
 ///
 /// e = 0 (or a massless side): the return map is one-dimensional. There is exactly one cycle that
 /// mirrors itself when growth_at_rest > 1 and none otherwise (proof:
-/// docs/explanation/mathematics.md). It is the root of one scalar equation and always found. The
+/// docs/explanation/servo.md). It is the root of one scalar equation and always found. The
 /// verdict is `computed`, or a `theorem` if growth at rest is not needed (a shaft, or both, without
 /// friction; no backlash; 1/c + 1/D ≤ 2ζ). 0 < e ≤ 1: if 1/c + 1/D ≤ 2ζ nothing can hunt, a
 /// `theorem`. Otherwise Newton's method finds fixed points of the return map (return_map.hpp), from

@@ -12,7 +12,7 @@ namespace gearlash {
 ///   (b/2) √(Y² + P²),   Y = J_M + |κ′| ‖h′‖ + J_M ‖h‖,   P = |κ′| + |J_M − 2ζκ′| ‖h′‖ + |κ′| ‖h‖,
 /// with κ′ = F_L J_M − F_M J_L and the impulse response h of 1/(s² + 2ζs + 1), whose norms ∫|h|,
 /// ∫|h′| are taken in closed form (for ζ ≥ 1 a bound). Infinite for ζ = 0. Derivation:
-/// docs/explanation/mathematics.md, Bounces. Precondition: two masses.
+/// docs/explanation/servo.md, Bounces. Precondition: two masses.
 double largest_lasting_parting(const ServoDynamics& dynamics);
 
 /// A start on the line and what follows.

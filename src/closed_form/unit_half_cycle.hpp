@@ -14,7 +14,7 @@ GapFlight unit_flight(const ServoDynamics& dynamics);
 
 /// ln ρ = ½ ln(Q(y, P)/Q(line)) − ζ t₁ with Q(y, v) = y² + 2ζyv + v², which decays as e^{−2ζt}
 /// along the engaged flow for every ζ. Proof that it increases with t₂:
-/// docs/explanation/mathematics.md. Precondition: plastic contact, flight_time > 0.
+/// docs/explanation/servo.md. Precondition: plastic contact, flight_time > 0.
 UnitHalfCycle unit_half_cycle(const ServoDynamics& dynamics, double flight_time);
 
 /// The half cycle that ends as it began, mirrored: the root t₂ of ln ρ(t₂) = 0. It exists exactly

@@ -35,7 +35,8 @@ TEST(OraclePositivePolynomial, IsDecidedByItsRoots) {
   EXPECT_FALSE(is_positive({Interval(-1e-9, 1.0), 1.0}));
 }
 
-/// B ≥ 0 of docs/explanation/mathematics.md, which is_dissipative() decides in rational numbers.
+/// B ≥ 0 of docs/explanation/absence-by-energy.md, which is_dissipative() decides in rational
+/// numbers.
 TEST(OracleAbsenceByEnergy, OfTheServoIsItsOwnTheorem) {
   SeededDraws draws(20261123);
   int proved = 0;

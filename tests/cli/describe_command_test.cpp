@@ -30,7 +30,7 @@ std::vector<std::string> of_servo(std::vector<std::string> more) {
   return more;
 }
 
-/// The first row of the table of docs/explanation/mathematics.md.
+/// The first row of the table of docs/explanation/describing-functions.md.
 TEST(DescribeCommand, PutsThePredictionBesideTheExactCycle) {
   const Outcome run = describe(of_servo({"--format", "json"}));
   ASSERT_EQ(run.status, 0) << run.err;

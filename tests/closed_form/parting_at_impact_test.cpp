@@ -1,4 +1,4 @@
-// The theorem of docs/explanation/mathematics.md speaks of motions that have parted cleanly once.
+// The theorem of docs/explanation/servo.md speaks of motions that have parted cleanly once.
 // Arbitrary starts may part at impacts first; here is how often in a row.
 #include <gtest/gtest.h>
 

@@ -37,7 +37,7 @@ struct ScaledSource {
 std::string obstacle(const ReducedDrive& drive) {
   const auto* faces = std::get_if<drive::CompliantContact>(&drive.contact);
   if (faces != nullptr && faces->damping > 0.0 && !drive::is_joined(drive)) {
-    return "faces with damping: it can be exceeded (docs/explanation/mathematics.md)";
+    return "faces with damping: it can be exceeded (docs/explanation/ceiling.md)";
   }
   if (drive.error_shape.is_relay()) return "a relay: the controller is not linear";
   return {};

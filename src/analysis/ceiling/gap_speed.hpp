@@ -20,7 +20,7 @@ struct GapSpeed {
   bool is_braked = false;     ///< by the second bound
 };
 
-/// docs/explanation/mathematics.md, "The gap's speed":
+/// docs/explanation/ceiling.md, "The gap's speed":
 ///   w² (1 − e²) ≤ 2 b (acceleration + β w), β = per_speed + max(0, slope), and
 ///   w ≤ (acceleration + per_speed w)/(−slope).
 GapSpeed highest_gap_speed(const GapMotion& motion);

@@ -1,5 +1,5 @@
 // How far bounded disturbances can move the loop of a drive whose controller is linear, whatever
-// its contact does (docs/explanation/mathematics.md, "The ceiling").
+// its contact does (docs/explanation/ceiling.md).
 #pragma once
 
 #include <memory>

@@ -15,7 +15,7 @@ namespace gearlash {
 // is the complex gain of its first harmonic; a lag has Im N < 0. None of those below depends on
 // the frequency. In each, h = gap/2 is half the gap.
 // Source: Gelb and Vander Velde, Multiple-Input Describing Functions and Nonlinear System Design
-// (1968); the inertia-controlled gap is derived in docs/explanation/mathematics.md.
+// (1968); the inertia-controlled gap is derived in docs/explanation/describing-functions.md.
 
 /// Free play whose output stays constant while the gap is crossed: a load held by friction
 /// (Prandtl's play). With cos φ = 2h/A − 1, 0 < φ < π,

@@ -8,7 +8,7 @@ namespace gearlash {
 /// Whether it is proved that no motion of the drive is sustained: seen from its contact, and from
 /// its dry frictions if it has any, the rest of the drive only ever takes energy. It holds for
 /// rigid faces of any restitution and for compliant ones, damped or not
-/// (docs/explanation/mathematics.md, "Absence by energy"). Sufficient, not necessary. False for a
+/// (docs/explanation/absence-by-energy.md). Sufficient, not necessary. False for a
 /// sampled controller, an encoder, a torque limit or a signal that moves, of which nothing is
 /// proved here.
 bool is_absent_by_energy(const drive::ReducedDrive& drive);

@@ -410,7 +410,7 @@ TEST(HarmonicBalanceEdge, NaturalFrequencyRange) {
 
 // ---- The servo
 
-/// The numbers of docs/explanation/mathematics.md, "Describing functions".
+/// The numbers of docs/explanation/describing-functions.md.
 TEST(HarmonicBalanceOracle, EstimateBesideTheExactCycle) {
   struct Row {
     double damping, inertia_ratio, friction_ratio;
