@@ -22,7 +22,7 @@ install(FILES "${pages}/gearlash" DESTINATION "${share}/bash-completion/completi
 install(FILES "${pages}/_gearlash" DESTINATION "${share}/zsh/vendor-completions" COMPONENT tool)
 install(FILES README.md DESTINATION "${share}/doc/gearlash" COMPONENT tool)
 install(DIRECTORY docs DESTINATION "${share}/doc/gearlash" COMPONENT tool
-        FILES_MATCHING PATTERN "*.md" PATTERN pictures EXCLUDE)
+        FILES_MATCHING PATTERN "*.md" PATTERN pictures EXCLUDE PATTERN drawings EXCLUDE)
 # The page of `gearlash explore`, which `make web` makes.
 install(FILES "${PROJECT_SOURCE_DIR}/build/web/site/explorer.html" DESTINATION "${share}/gearlash"
         COMPONENT tool)
