@@ -87,10 +87,10 @@ py::array_t<std::complex<double>> gains(double gap, const Numbers& amplitudes) {
 }  // namespace
 
 void add_analysis(py::module_& module) {
-  module.def("analyse", analysed);
-  module.def("derivatives", derivatives_of);
-  module.def("describe", described);
-  module.def("compare", compared);
+  module.def("analyse", analysed, py::call_guard<LongCall>());
+  module.def("derivatives", derivatives_of, py::call_guard<LongCall>());
+  module.def("describe", described, py::call_guard<LongCall>());
+  module.def("compare", compared, py::call_guard<LongCall>());
   module.def("describing_gain", gains);
   module.def("hunts", [](const std::string& verdict) {
     return hunts(from_python<Verdict>(py::str(verdict), "verdict"));

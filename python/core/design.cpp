@@ -134,18 +134,18 @@ void add_design(py::module_& module) {
   module.def("target", [](const std::string& text, py::handle drive) {
     return to_python(parse_target(text, drive_of(drive)));
   });
-  module.def("design", designed);
+  module.def("design", designed, py::call_guard<LongCall>());
   module.def("usual_parameters",
              [](py::handle drive) { return to_python(usual_parameters(drive_of(drive))); });
   module.def("axis", [](const std::string& text, py::handle drive) {
     return to_python(read_axis_or_name("axis", text, drive_of(drive)));
   });
-  module.def("margins", margin_of);
-  module.def("tolerance_study", studied);
-  module.def("answer_samples", answered_samples);
+  module.def("margins", margin_of, py::call_guard<LongCall>());
+  module.def("tolerance_study", studied, py::call_guard<LongCall>());
+  module.def("answer_samples", answered_samples, py::call_guard<LongCall>());
   module.def("study_of", study_of_samples);
-  module.def("sensitivity_indices", indices);
-  module.def("widest_backlash", widest);
+  module.def("sensitivity_indices", indices, py::call_guard<LongCall>());
+  module.def("widest_backlash", widest, py::call_guard<LongCall>());
   module.def("sampling_of", [](std::size_t samples, std::uint64_t seed) {
     return to_python(sampling_of(samples, {.seed = seed}));
   });
@@ -153,7 +153,7 @@ void add_design(py::module_& module) {
     return to_python(usual_sampling(from_python<TolerancedDrive>(series, "series"),
                                     from_python<StudyQuestions>(questions, "questions")));
   });
-  module.def("tune", tuned);
+  module.def("tune", tuned, py::call_guard<LongCall>());
   module.def("usual_gains",
              [](py::handle drive) { return to_python(usual_gains(drive_of(drive))); });
   module.def("axis_to_tune", [](const std::string& text, py::handle drive) {

@@ -110,8 +110,8 @@ py::dict description(py::handle drive, py::handle axes, bool proved) {
 }  // namespace
 
 void add_grids(py::module_& module) {
-  module.def("evaluate_grid", evaluated_grid);
-  module.def("evaluate_list", evaluated_list);
+  module.def("evaluate_grid", evaluated_grid, py::call_guard<LongCall>());
+  module.def("evaluate_list", evaluated_list, py::call_guard<LongCall>());
   module.def("check_grid",
              [](py::handle drive, py::handle axes, const std::vector<std::string>& names) {
                (void)quantities_named(names);

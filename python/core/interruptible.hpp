@@ -15,6 +15,33 @@ namespace gearlash::python {
 
 namespace py = pybind11;
 
+/// Guards each call of `interruptible` (py::call_guard). An ending interpreter ends every thread
+/// that asks for its lock, by force, which C++ code does not survive ("exception not rethrown"). So
+/// such calls are stopped at its exit, and their threads wait for the end of the program without
+/// it.
+class LongCall {
+ public:
+  LongCall();
+  ~LongCall();
+  LongCall(const LongCall&) = delete;
+  LongCall& operator=(const LongCall&) = delete;
+};
+
+/// Stops the calls of all other threads and waits for them, for two seconds at most: for atexit.
+void stop_calls_at_exit();
+
+/// Gives up the interpreter's lock. Throws std::logic_error outside of a LongCall.
+class WithoutLock {
+ public:
+  WithoutLock();
+  ~WithoutLock();
+  WithoutLock(const WithoutLock&) = delete;
+  WithoutLock& operator=(const WithoutLock&) = delete;
+
+ private:
+  PyThreadState* thread_;
+};
+
 /// Looks for signals every few hundredths of a second, in the calling thread, which always takes
 /// part in the work, and calls `report(share)`, if it is not None, as often. Work stops where
 /// either raises, and where `report` returns False.
@@ -51,7 +78,7 @@ template <class Work>
 auto interruptible(const py::object& report, Work work) {
   PythonProgress progress(report);
   auto result = [&] {
-    const py::gil_scoped_release unlocked;
+    const WithoutLock unlocked;
     return work(progress);
   }();
   progress.raise_if_stopped();

@@ -3,6 +3,7 @@
 
 #include "gearlash/fault.hpp"
 #include "gearlash/version.hpp"
+#include "interruptible.hpp"
 #include "records.hpp"
 
 namespace gearlash::python {
@@ -61,6 +62,8 @@ PYBIND11_MODULE(_core, module) {
   module.def("words", python::words);
   module.def("default_records", python::default_records);
   module.def("there_and_back", python::there_and_back, pybind11::arg("record"));
+  pybind11::module_::import("atexit").attr("register")(
+      pybind11::cpp_function(python::stop_calls_at_exit));
   python::add_drives(module);
   python::add_analysis(module);
   python::add_motions(module);

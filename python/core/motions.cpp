@@ -69,9 +69,9 @@ std::vector<std::string> modes_at(const Motion& motion, const Numbers& times) {
 
 void add_motions(py::module_& module) {
   py::class_<Motion>(module, "Motion")
-      .def("sampled", sampled)
+      .def("sampled", sampled, py::call_guard<LongCall>())
       .def("sample_count", &Motion::sample_count)
-      .def("at", at)
+      .def("at", at, py::call_guard<LongCall>())
       .def("modes_at", modes_at)
       .def("events", events)
       .def("touches",
@@ -86,7 +86,7 @@ void add_motions(py::module_& module) {
       .def_property_readonly("stop_text", &Motion::stop_text)
       .def_property_readonly("engine",
                              [](const Motion& motion) { return to_python(motion.engine()); });
-  module.def("simulate", simulated);
+  module.def("simulate", simulated, py::call_guard<LongCall>());
 }
 
 }  // namespace gearlash::python

@@ -125,10 +125,10 @@ py::list figures() {
 }  // namespace
 
 void add_thesis(py::module_& module) {
-  module.def("thesis_printout", printed);
+  module.def("thesis_printout", printed, py::call_guard<LongCall>());
   module.def("thesis_table_2", table_2);
-  module.def("thesis_run", run);
-  module.def("thesis_figures", figures);
+  module.def("thesis_run", run, py::call_guard<LongCall>());
+  module.def("thesis_figures", figures, py::call_guard<LongCall>());
 }
 
 }  // namespace gearlash::python

@@ -132,3 +132,55 @@ def test_memory_does_not_grow(servo, pd_drive):
     for _ in range(120):
         once()
     assert used() - before < 4_000  # kB; one of these calls keeps 400 kB in arrays alone
+
+
+def test_daemon_threads_in_long_calls_do_not_abort_the_exit():
+    """Each long call, over and over, in a thread of its own, when the interpreter ends."""
+    program = textwrap.dedent("""
+        import gearlash, itertools, sys, threading, time
+        series = gearlash.Drive.from_toml(sys.argv[1])
+        servo = gearlash.Drive.normal_form(damping=0.19, inertia_ratio=2, friction_ratio=0.1,
+                                           backlash=0.3)
+        motion = gearlash.simulate(servo, until=1e4)
+        told = lambda share: sum(range(1000)) > 0
+        calls = [
+            lambda: gearlash.analyse(series, progress=told),
+            lambda: gearlash.derivatives(servo, ["amplitude"], ["servo.damping"]),
+            lambda: gearlash.describe(series),
+            lambda: gearlash.compare(series),
+            lambda: gearlash.design(servo, "no-hunting"),
+            lambda: gearlash.margins(servo),
+            lambda: gearlash.tolerance(series, samples=512, progress=told),
+            lambda: gearlash.sensitivity_indices(series, samples=512),
+            lambda: gearlash.widest_backlash(series, "no-hunting"),
+            lambda: gearlash.tune(series, progress=told),
+            lambda: gearlash.simulate(series, until=100.0),
+            lambda: motion.sampled(1e-3),
+            lambda: gearlash.sweep(servo, {"servo.damping": "0.1:0.9:2000"}, progress=told),
+            lambda: gearlash.thesis.printout(machine=True),
+        ]
+        begun = [threading.Event() for call in calls]
+
+        def repeat(call, event):
+            while True:
+                event.set()
+                try:
+                    call()
+                except (TypeError, AttributeError):
+                    raise
+                except Exception:
+                    pass
+
+        for call, event in zip(calls, begun):
+            threading.Thread(target=repeat, args=(call, event), daemon=True).start()
+        for event in begun:
+            event.wait()
+        time.sleep(float(sys.argv[2]))
+        print("leaving", flush=True)
+    """)
+    joint = os.path.join(os.path.dirname(__file__), "../../examples/toleranced-joint.toml")
+    for pause in ("0.01", "0.3", "1"):
+        done = subprocess.run([sys.executable, "-c", program, joint, pause], capture_output=True,
+                              text=True, check=False, timeout=60)
+        assert (done.returncode, done.stdout) == (0, "leaving\n"), done.stderr
+        assert done.stderr == ""
