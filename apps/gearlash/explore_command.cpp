@@ -7,6 +7,7 @@
 #include "gearlash/parameter.hpp"
 #include "input/section_reader.hpp"
 #include "input/text_file.hpp"
+#include "input/utf8.hpp"
 #include "machine_faults.hpp"
 #include "output/drive_text.hpp"
 #include "output/output_file.hpp"
@@ -69,7 +70,7 @@ Tables tables_of(const Drive& drive, const std::string& file) {
     if (!name.is_string() || name.get<std::string>().empty()) continue;
     const fs::path written = name.get<std::string>();
     const std::string base = written.filename().string();
-    tables.files[base] = read_text_file(folder / written, largest_table);
+    tables.files[base] = as_utf8(read_text_file(folder / written, largest_table));
     if (written != base) tables.settings.push_back(nlohmann::ordered_json::array({path, base}));
   }
   return tables;
@@ -96,7 +97,7 @@ nlohmann::ordered_json drive_of_page(const ServoOptions& options, const WrittenD
     settings.push_back(nlohmann::ordered_json::array({setting.path, setting.text}));
   }
   return {{"toml", read_text_file(options.file, largest_drive_file)},
-          {"name", fs::path(options.file).filename().string()},
+          {"name", as_utf8(fs::path(options.file).filename().string())},
           {"settings", std::move(settings)},
           {"files", std::move(tables.files)}};
 }

@@ -135,16 +135,9 @@ bool may_be_lost(const fs::path& file) {
   return !file.empty() && file != "-" && !is_device;
 }
 
-/// One name for a file, however it is spelled. A file that does not exist yet has no canonical one.
-fs::path resolved(const fs::path& file) {
-  std::error_code error;
-  const fs::path whole = fs::weakly_canonical(fs::absolute(file, error), error);
-  return error ? file.lexically_normal() : whole;
-}
-
 bool is_same_file(const fs::path& one, const fs::path& other) {
   std::error_code error;
-  return resolved(one) == resolved(other) || fs::equivalent(one, other, error);
+  return destination_of(one) == destination_of(other) || fs::equivalent(one, other, error);
 }
 
 }  // namespace

@@ -22,12 +22,6 @@ namespace fs = std::filesystem;
 
 std::string whole_name(const fs::path& path) { return shown(path.string(), std::string::npos); }
 
-fs::path target_of(const fs::path& output) {
-  std::error_code error;
-  const fs::path resolved = fs::weakly_canonical(output, error);
-  return error ? output : resolved;
-}
-
 fs::path with_ending(fs::path path, const char* ending) { return path += ending; }
 
 /// Marks a record as that of a sweep.
@@ -56,12 +50,12 @@ Json read_json(const fs::path& file) {
 }  // namespace
 
 std::array<fs::path, 2> unfinished_files(const fs::path& output) {
-  const fs::path target = target_of(output);
+  const fs::path target = destination_of(output);
   return {with_ending(target, ".part"), with_ending(target, ".part.json")};
 }
 
 SweepPart::SweepPart(const fs::path& output)
-    : output_(target_of(output)),
+    : output_(destination_of(output)),
       data_(unfinished_files(output)[0]),
       record_(unfinished_files(output)[1]),
       shown_output_(whole_name(output)) {

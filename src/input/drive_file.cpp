@@ -7,6 +7,7 @@
 #include "input/drive_reader.hpp"
 #include "input/text_file.hpp"
 #include "input/toml_document.hpp"
+#include "input/utf8.hpp"
 #include "model/parameters.hpp"
 
 namespace gearlash {
@@ -116,6 +117,7 @@ WrittenDrive parse_drive(std::string_view toml, std::string_view source_name,
 }
 
 Setting read_setting(const std::string& text) {
+  if (as_utf8(text) != text) refuse("--set", text, "must be UTF-8, as the text of a file is");
   const std::size_t sign = text.find('=');
   if (sign == std::string::npos) {
     refuse("--set", text, "must be PATH=VALUE, such as gearbox.ratio=50");

@@ -464,13 +464,8 @@ class DriveReader {
     const auto name_of = [&](const std::string& field) {
       return name_in_file(field.substr(0, field.find('.', field.find('.') + 1)));
     };
-    if (!file_.tolerances.empty() && closed_form_servo(drive())) {
-      findings_.take(faults(TolerancedDrive{drive(), file_.tolerances}), name_of, place_);
-      return;
-    }
-    for (const ParameterTolerance& tolerance : file_.tolerances) {
-      findings_.take(validate(tolerance.distribution, tolerance.path), name_of, place_);
-    }
+    if (file_.tolerances.empty()) return;
+    findings_.take(faults(TolerancedDrive{drive(), file_.tolerances}), name_of, place_);
   }
 
   /// The key under which the file gives a parameter.

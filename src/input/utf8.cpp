@@ -2,6 +2,8 @@
 
 #include <utf8/checked.h>
 
+#include <iterator>
+
 namespace gearlash {
 
 std::optional<char32_t> take_code_point(std::string_view& text) {
@@ -13,6 +15,20 @@ std::optional<char32_t> take_code_point(std::string_view& text) {
   } catch (const utf8::exception&) {
     return std::nullopt;
   }
+}
+
+std::string as_utf8(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const std::string_view before = text;
+    if (take_code_point(text)) {
+      result += before.substr(0, before.size() - text.size());
+    } else {
+      utf8::append(static_cast<unsigned char>(text[0]), std::back_inserter(result));
+      text.remove_prefix(1);
+    }
+  }
+  return result;
 }
 
 }  // namespace gearlash

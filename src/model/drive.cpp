@@ -70,7 +70,8 @@ void check_sampling(RangeCheck& all, const ReducedDrive& drive) {
   check.positive("period", sampling.period, "s");
   if (!check.faults().empty()) return void(all.include(check.faults()));
   const double longest = most_periods_of_delay * sampling.period;
-  if (!(sampling.delay >= 0.0 && sampling.delay <= longest)) {
+  constexpr double rounding = 1e-12;  // as split_delay() has it
+  if (!(sampling.delay >= 0.0 && sampling.delay <= longest * (1.0 + rounding))) {
     check.refuse("delay", exact_text(sampling.delay),
                  "must be from 0 to " + std::to_string(most_periods_of_delay) + " periods, " +
                      exact_text(longest) + " s");

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/range_check.hpp"
+#include "gearlash/bounds.hpp"
 #include "model/firmware.hpp"
 #include "model/parameters.hpp"
 #include "model/proportional_servo.hpp"
@@ -275,19 +276,95 @@ void check_columns(RangeCheck& check, const Drive& drive) {
   if (is_wrong(system->D)) check.refuse("controller.D", "", permitted);
 }
 
+constexpr double largest_number = 1e60;
+constexpr double least_divisor = 1e-60;
+
+/// Numbers so large, or so near to 0 where they divide, that products of some are no doubles.
+void check_size(RangeCheck& check, const std::string& path, double value, const Bounds& permitted,
+                const std::string& unit) {
+  const double size = std::abs(value);
+  if (size > permitted.high && std::isfinite(size)) {
+    check.refuse(path, exact_text(value) + unit,
+                 "must be at most " + exact_text(permitted.high) + unit + " in size");
+  }
+  if (size < permitted.low) {
+    check.refuse(path, exact_text(value) + unit,
+                 "must be at least " + exact_text(permitted.low) + unit);
+  }
+}
+
+void check_sizes(RangeCheck& check, const std::string& path, const std::vector<double>& numbers) {
+  constexpr double largest = 1e100;  // coefficients are products of poles
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (std::abs(numbers[i]) <= largest) continue;
+    check_size(check, path + "[" + std::to_string(i) + "]", numbers[i], {0.0, largest}, "");
+  }
+}
+
+void check_size(RangeCheck& check, const Parameter& parameter, const Drive& drive) {
+  const std::string path(parameter.path);
+  const Slot slot = parameter.slot(const_cast<Drive&>(drive));
+  if (auto* const* list = std::get_if<std::vector<double>*>(&slot)) {
+    return check_sizes(check, path, **list);
+  }
+  if (auto* const* rows = std::get_if<Rows*>(&slot)) {
+    for (const std::vector<double>& row : **rows) check_sizes(check, path, row);
+    return;
+  }
+  const bool is_number =
+      std::holds_alternative<double*>(slot) || std::holds_alternative<std::optional<double>*>(slot);
+  if (!is_number || parameter.permitted == Permitted::of_normal_form) return;
+  const std::optional<double> number = number_in(parameter, drive);
+  if (!number) return;
+  const Dimension* dimension = parameter.dimension(drive);
+  const std::string unit = dimension == nullptr ? "" : " " + std::string(dimension->unit);
+  const bool divides = parameter.permitted == Permitted::positive ||
+                       (parameter.path.ends_with(".inertia") && *number > 0.0);
+  check_size(check, path, *number, {divides ? least_divisor : 0.0, largest_number}, unit);
+}
+
+/// The points of a file are no parameters; those of a list were checked.
+void check_table(RangeCheck& check, const std::string& section,
+                 const std::optional<Signal>& signal) {
+  const auto* table = signal ? std::get_if<TableSignal>(&*signal) : nullptr;
+  if (table == nullptr || table->file.empty()) return;
+  for (const std::vector<double>* numbers : {&table->times, &table->values}) {
+    const auto large = std::find_if(numbers->begin(), numbers->end(), [](double number) {
+      return std::abs(number) > largest_number;
+    });
+    if (large == numbers->end()) continue;
+    check.refuse(section + ".file", table->file,
+                 "must hold numbers of at most " + exact_text(largest_number) + " in size, not " +
+                     exact_text(*large));
+  }
+}
+
+/// Of a drive that is computed as a hybrid system; the closed form has no such limits.
+std::vector<Fault> faults_of_size(const Drive& drive) {
+  RangeCheck check;
+  for (const Parameter& parameter : all_parameters_of_drives()) {
+    if (exists(parameter, drive)) check_size(check, parameter, drive);
+  }
+  check_table(check, "reference", drive.reference);
+  check_table(check, "load_torque", drive.load_torque);
+  return check.faults();
+}
+
 /// Rules that join several numbers.
 std::vector<Fault> joint_faults(const Drive& drive) {
   const drive::ReducedDrive reduced = reduce(drive);
-  std::vector<Fault> found = drive::validate(reduced);
-  if (found.empty()) {
-    RangeCheck encoder;
-    check_encoder(encoder, drive, reduced);
-    found = encoder.faults();
-  }
   if (must_be_a_servo(drive, reduced) && validate(reduced.controller).empty()) {
     if (const auto drivetrain = drive::proportional_drivetrain(reduced)) {
       return servo_faults(*drivetrain);
     }
+  }
+  std::vector<Fault> found = faults_of_size(drive);
+  if (!found.empty()) return found;
+  found = drive::validate(reduced);
+  if (found.empty()) {
+    RangeCheck encoder;
+    check_encoder(encoder, drive, reduced);
+    found = encoder.faults();
   }
   for (Fault& fault : found) fault.path = path_of(fault.path);
   return found;

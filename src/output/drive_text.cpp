@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <sstream>
 
 #include "analysis/drive_notes.hpp"
+#include "base/decimal.hpp"
 #include "base/range_check.hpp"
 #include "general/assemble/time_scale.hpp"
 #include "model/firmware.hpp"
@@ -22,17 +24,24 @@ std::string toml_text(std::string_view text) {
   return Json(std::string(text)).dump();
 }
 
+/// A number as TOML, whose integers end at 2⁶³.
+std::string bare_text(double value) {
+  constexpr double least_without_integer = 0x1p63;
+  const bool is_long = std::abs(value) >= least_without_integer && std::isfinite(value);
+  return is_long ? shortest_scientific_text(value) : exact_text(value);
+}
+
 std::string list_text(const std::vector<double>& numbers) {
   std::string text = "[";
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    text += (i == 0 ? "" : ", ") + exact_text(numbers[i]);
+    text += (i == 0 ? "" : ", ") + bare_text(numbers[i]);
   }
   return text + "]";
 }
 
 std::string number_text(double value, const Dimension* dimension) {
   if (dimension == nullptr) {
-    const std::string text = exact_text(value);
+    const std::string text = bare_text(value);
     return text == "inf" ? toml_text(text) : text;
   }
   return toml_text(exact_text(value) + " " + std::string(dimension->unit));
@@ -91,7 +100,7 @@ std::string toleranced_text(const Distribution& varies, const Parameter& paramet
   std::string lots;
   for (const Lot& lot : std::get<DiscreteLots>(varies).lots) {
     lots += fmt::format("{}{{ value = {}, weight = {} }}", lots.empty() ? "" : ", ",
-                        number(lot.value), exact_text(lot.weight));
+                        number(lot.value), bare_text(lot.weight));
   }
   return fmt::format("{{ lots = [{}] }}", lots);
 }

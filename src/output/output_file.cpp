@@ -122,6 +122,20 @@ bool is_held(int descriptor) {
 
 }  // namespace
 
+std::filesystem::path destination_of(const std::filesystem::path& path) {
+  namespace fs = std::filesystem;
+  constexpr int most_links = 40;  // as Linux has it
+  std::error_code error;
+  fs::path followed = path;
+  for (int i = 0; i < most_links && fs::is_symlink(followed, error); ++i) {
+    const fs::path next = fs::read_symlink(followed, error);
+    if (error) return path;
+    followed = followed.parent_path() / next;  // `next` alone if it is absolute
+  }
+  const fs::path whole = fs::weakly_canonical(fs::absolute(followed, error), error);
+  return error ? path : whole;
+}
+
 void remove_unfinished_outputs() noexcept {
   for (UnfinishedOutput& output : unfinished_outputs) {
     if (output.exists.exchange(false)) unlink(output.name.data());
@@ -151,9 +165,7 @@ void OutputFile::open_path(const std::filesystem::path& path) {
   } else if (names_open_descriptor(path) || !is_regular_or_new(path)) {
     open_directly(path);
   } else {
-    std::error_code error;
-    const std::filesystem::path resolved = std::filesystem::weakly_canonical(path, error);
-    open_beside(error ? path : resolved);
+    open_beside(destination_of(path));
   }
 }
 

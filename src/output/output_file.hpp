@@ -70,6 +70,10 @@ using TextSink = std::function<void(std::string_view)>;
 /// Writes one text with OutputFile.
 void write_file(const std::filesystem::path& path, std::string_view text);
 
+/// Where a file of this name is written: symbolic links followed, also one whose file does not
+/// exist yet. `path` itself where they lead nowhere.
+std::filesystem::path destination_of(const std::filesystem::path& path);
+
 /// Why no file of this name can be written, as "No such file or directory"; empty if one can. A
 /// pipe is not tried, because its reader would see its end.
 std::string why_unwritable(const std::filesystem::path& path);

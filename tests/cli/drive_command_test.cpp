@@ -56,6 +56,18 @@ class DriveCommand : public ::testing::Test {
   Scratch scratch_;
 };
 
+TEST_F(DriveCommand, ShowWritesLargeWholeNumbersThatReadBack) {
+  const std::string drive = file(std::string(mechanics) +
+                                 "[controller]\nkind = \"transfer-function\"\n"
+                                 "gain = \"2 N m/rad\"\nnum = [1e19]\n"
+                                 "den = [1, 9223372036854775808.0, 1.0488870593754999e+19]\n");
+  const Outcome shown = run_tool({"show", drive});
+  ASSERT_EQ(shown.status, 0) << shown.err;
+  const Outcome again = run_tool({"show", file(shown.out)});
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(again.out, shown.out);
+}
+
 TEST_F(DriveCommand, ADriveWithAClosedFormIsTheServoThatItIs) {
   const std::string drive = file(std::string(mechanics) + proportional);
   const Outcome run = run_tool({"limit-cycle", drive});

@@ -75,6 +75,17 @@ TEST_F(ExploreCommand, NamedTablesGoAlong) {
   EXPECT_EQ(drive()["files"]["steps.csv"], "time (s), position (rad)\n0, 0\n1, 0.2\n");
 }
 
+TEST_F(ExploreCommand, BytesThatAreNotUtf8AreReadAsLatin1) {
+  std::ofstream(folder_ / "steps.csv") << "# 20 \xB0\ntime (s), position (rad)\n0, 0\n1, 0.2\n";
+  std::ofstream(folder_ / "caf\xE9.toml")
+      << file_text(fs::path(GEARLASH_SOURCE_DIRECTORY) / "examples/first-servo.toml")
+      << "\n[reference]\nkind = \"table\"\nfile = \"steps.csv\"\n";
+  const Outcome run = explore((folder_ / "caf\xE9.toml").string());
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(drive()["files"]["steps.csv"], "# 20 °\ntime (s), position (rad)\n0, 0\n1, 0.2\n");
+  EXPECT_EQ(drive()["name"], "café.toml");
+}
+
 TEST_F(ExploreCommand, TextOfTheDriveCannotEndItsElement) {
   std::ofstream(folder_ / "sly.toml")
       << "# </script><b>\n"

@@ -180,6 +180,22 @@ TEST(OutputFiles, ASymbolicLinkStaysOneAndPermissionsStay) {
             std::filesystem::perms(0640));
 }
 
+TEST(OutputFiles, ADanglingLinkStaysOneAndItsFileIsMade) {
+  const Scratch scratch;
+  std::filesystem::create_directory(scratch / "folder");
+  std::filesystem::create_symlink("folder/second.csv", scratch / "link.csv");
+  std::filesystem::create_symlink("made.csv", scratch / "folder/second.csv");
+  EXPECT_EQ(run_tool(simulate_into(scratch / "link.csv")).status, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(scratch / "link.csv"));
+  EXPECT_TRUE(std::filesystem::is_symlink(scratch / "folder/second.csv"));
+  EXPECT_THAT(file_text(scratch / "folder/made.csv"), StartsWith("time_s,"));
+  std::filesystem::create_symlink("nowhere/made.csv", scratch / "lost.csv");
+  const Outcome run = run_tool(simulate_into(scratch / "lost.csv"));
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("must be a file that can be written (No such file or directory)"));
+  EXPECT_TRUE(std::filesystem::is_symlink(scratch / "lost.csv"));
+}
+
 TEST(OutputFiles, NoneMayTakeThePlaceOfAnother) {
   const Scratch scratch;
   const std::string sheet = (scratch / "own.toml").string();

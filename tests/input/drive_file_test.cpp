@@ -8,6 +8,7 @@
 #include <fstream>
 #include <numbers>
 #include <string>
+#include <tuple>
 
 #include "input/servo_of_file.hpp"
 #include "input/text_of_drive.hpp"
@@ -374,6 +375,60 @@ TEST(EdgeDriveFile, AFaultIsToldOnce) {
   EXPECT_THAT(refusals(plain + std::string("[loop]\nerror_gain = \"3 V/rad\"\n"
                                            "[sensor]\nresolution = \"-1 deg\"\n")),
               ElementsAre(HasSubstr("sensor.resolution = -1 deg: must be zero or positive")));
+}
+
+/// The faults of `joint` with one parameter set.
+std::vector<std::string> refusals_with(const Setting& setting) {
+  return test::faults_of([&] { parse_drive(joint, "drive.toml", ".", {setting}); });
+}
+
+TEST(EdgeDriveFile, NumbersWhoseProductsAreNoDoublesAreRefusedByTheirKeys) {
+  for (const auto& [path, number, unit] : {std::tuple("gearbox.backlash", "1e308", " rad"),
+                                           {"load.inertia", "1e150", " kg m2"},
+                                           {"load.friction", "1e61", " N m s/rad"},
+                                           {"controller.proportional", "1e308", " N m/rad"},
+                                           {"gearbox.ratio", "1e200", ""},
+                                           {"reference.to", "1e308", " rad"},
+                                           {"load_torque.after", "-1e100", " N m"},
+                                           {"sampling.period", "1e61", " s"}}) {
+    EXPECT_THAT(refusals_with({path, std::string(number) + unit}),
+                ::testing::Contains(::testing::AllOf(
+                    HasSubstr(std::string(path) + " = " + number + unit),
+                    HasSubstr("must be at most 1e+60" + std::string(unit) + " in size"))));
+  }
+  EXPECT_THAT(refusals_with({"load.inertia", "1e-61 kg m2"}),
+              ElementsAre("--set: load.inertia = 1e-61 kg m2: must be at least 1e-60 kg m2"));
+  EXPECT_THAT(refusals_with({"load.inertia", "1e59 kg m2"}), IsEmpty());
+  EXPECT_THAT(refusals_with({"load.friction", "0 N m s/rad"}), IsEmpty());
+}
+
+TEST(EdgeDriveFile, ATableOfSuchNumbersIsRefused) {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "gearlash-large.csv";
+  std::ofstream(file) << "time (s),position (rad)\n0,0\n1,1e308\n";
+  const std::string table = "kind = \"table\"\nfile = \"" + file.string() + "\"\n";
+  const std::string text = joint;
+  const std::size_t begin = text.find("kind = \"trapezoid\"");
+  const std::size_t end = text.find("[load_torque]");
+  EXPECT_THAT(refusals(text.substr(0, begin) + table + text.substr(end)),
+              ElementsAre(HasSubstr("must hold numbers of at most 1e+60 in size, not 1e+308")));
+  std::filesystem::remove(file);
+}
+
+TEST(EdgeDriveFile, ADelayOfAHundredPeriodsIsOneInSpiteOfRounding) {
+  const auto with_delay = [](const char* delay) {
+    return test::faults_of([&] {
+      parse_drive(joint, "drive.toml", ".",
+                  {{"sampling.period", "50 us"}, {"sampling.delay", delay}});
+    });
+  };
+  EXPECT_THAT(with_delay("5 ms"), IsEmpty());
+  EXPECT_THAT(with_delay("5.0001 ms"), ElementsAre(HasSubstr("sampling.delay = 5.0001 ms")));
+}
+
+TEST(EdgeDriveFile, TolerancesAreCheckedWhateverIsAsked) {
+  EXPECT_THAT(refusals_with({"motor.inertia", "2 kg cm2 ± 1000 %"}),
+              ElementsAre(HasSubstr("motor.inertia = 2 kg cm2 ± 1000 %: must be")));
+  EXPECT_THAT(refusals_with({"motor.inertia", "2 kg cm2 ± 10 %"}), IsEmpty());
 }
 
 TEST(EdgeDriveFile, ASideWithoutInertiaIsTheClosedFormsAlone) {

@@ -100,6 +100,12 @@ TEST(Settings, OfNoParameterAreRefusedWithTheNearest) {
   EXPECT_THROW(read_setting("motor.inertia"), InvalidInput);
 }
 
+TEST(Settings, AreUtf8AsTheTextOfAFileIs) {
+  EXPECT_THAT(test::faults_of([] { read_setting("reference.file=t\xE9.csv"); }),
+              testing::ElementsAre(HasSubstr("reference.file=t\\xe9.csv: must be UTF-8")));
+  EXPECT_EQ(read_setting("reference.file=té.csv").text, "té.csv");
+}
+
 TEST(Settings, OfAProgramAreRefusedByTheirPath) {
   EXPECT_EQ(fault_of({{"gearbox.rtio", "50"}}),
             "gearbox.rtio = 50: must be a parameter of a drive (did you mean gearbox.ratio?)");
