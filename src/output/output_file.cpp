@@ -132,7 +132,7 @@ std::filesystem::path destination_of(const std::filesystem::path& path) {
     if (error) return path;
     followed = followed.parent_path() / next;  // `next` alone if it is absolute
   }
-  const fs::path whole = fs::weakly_canonical(fs::absolute(followed, error), error);
+  const fs::path whole = fs::weakly_canonical(followed, error);
   return error ? path : whole;
 }
 
