@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <functional>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -33,6 +35,21 @@ extern "C" void remove_outputs_and_die(int signal_number) {
   remove_unfinished_outputs();
   std::signal(signal_number, SIG_DFL);
   std::raise(signal_number);
+}
+
+/// Libraries have destructors and functions that must not throw and allocate nevertheless
+/// (nlohmann's JSON): the program ends there, and not by a signal.
+[[noreturn]] void end_without_memory() noexcept {
+  remove_unfinished_outputs();
+  const char* message = "gearlash: a fault in gearlash itself, please report it: std::terminate\n";
+  try {
+    if (const std::exception_ptr raised = std::current_exception()) std::rethrow_exception(raised);
+  } catch (const std::bad_alloc&) {
+    message = "gearlash: not enough memory\n";
+  } catch (...) {
+  }
+  std::fputs(message, stderr);
+  std::_Exit(static_cast<int>(ExitStatus::beyond_means));
 }
 
 void install_signal_handlers() {
@@ -81,7 +98,8 @@ ExitStatus parse_and_run(int argument_count, char** arguments) {
 ExitStatus guarded(int argument_count, char** arguments) {
   ExitStatus status = ExitStatus::beyond_means;
   try {
-    is_within_means([&] { status = parse_and_run(argument_count, arguments); });
+    const auto work = [&] { status = parse_and_run(argument_count, arguments); };
+    is_within_means(std::ref(work));  // allocates nothing outside of the guard
   } catch (const ReaderGone&) {
     status = ExitStatus::done;
   } catch (const InvalidInput& error) {
@@ -97,6 +115,7 @@ ExitStatus guarded(int argument_count, char** arguments) {
 }  // namespace gearlash::cli
 
 int main(int argument_count, char** arguments) {
+  std::set_terminate(gearlash::cli::end_without_memory);
   gearlash::cli::install_signal_handlers();
   const auto status = static_cast<int>(gearlash::cli::guarded(argument_count, arguments));
   if (gearlash::must_end_at_once()) std::_Exit(status);

@@ -1,5 +1,6 @@
 #include "output/output_file.hpp"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -10,6 +11,7 @@
 #include <climits>
 #include <csignal>
 #include <cstring>
+#include <memory>
 #include <system_error>
 
 #include "input/units.hpp"
@@ -101,13 +103,12 @@ void remove_if_left_behind(const std::filesystem::path& hidden) {
 void remove_left_behind(const std::filesystem::path& target) {
   const std::string beginning = beginning_of_hidden(target);
   const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
-  std::error_code error;
-  std::filesystem::directory_iterator entry(folder, error);
-  for (const std::filesystem::directory_iterator end; !error && entry != end;
-       entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
+  // Not std::filesystem's iterator, which ends the program when memory is short.
+  const std::unique_ptr<DIR, int (*)(DIR*)> entries(opendir(folder.c_str()), closedir);
+  while (const dirent* entry = entries == nullptr ? nullptr : readdir(entries.get())) {
+    const std::string_view name = entry->d_name;
     if (name.starts_with(beginning) && name.size() == beginning.size() + random_end.size()) {
-      remove_if_left_behind(entry->path());
+      remove_if_left_behind(folder / name);
     }
   }
 }

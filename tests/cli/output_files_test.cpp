@@ -305,33 +305,6 @@ std::string small_netcdf_file(const Scratch& scratch) {
          quoted((scratch / "a.nc").string());
 }
 
-TEST(OutputFiles, AnyWriteOfANetcdfFileMayFail) {
-  if (!test::may_limit_memory) GTEST_SKIP() << "sanitizers are not preloaded first";
-  const Scratch scratch;
-  const std::string sweep = (scratch / "sweep.toml").string();
-  std::ofstream(sweep) << "[sweep]\naxes = [\"damping=0.1:0.6:5\"]\n[servo]\n"
-                          "inertia_ratio = 2\nfriction_ratio = 0.1\n";
-  for (const std::string& command :
-       {small_netcdf_file(scratch), "\"$GEARLASH\" sweep " + quoted(sweep) + " --output " +
-                                        quoted((scratch / "a.nc").string())}) {
-    int write = 1;
-    for (Outcome run; run.status != 0 && write < 200; ++write) {
-      run = run_shell("FAILING_WRITE=" + std::to_string(write) +
-                      " LD_PRELOAD=" GEARLASH_FAILING_WRITE " " + command);
-      if (run.status == 0) break;
-      SCOPED_TRACE(command + ", write " + std::to_string(write));
-      EXPECT_EQ(run.status, 3);
-      EXPECT_THAT(run.err, HasSubstr("a.nc: cannot be written: No space left on device\n"));
-      for (const char* left : {"a.nc", "a.nc.part", "a.nc.part.json"}) {
-        std::filesystem::remove(scratch / left);
-      }
-      EXPECT_EQ(scratch.file_count(), 1U);
-    }
-    EXPECT_GT(write, 10);
-    EXPECT_TRUE(std::filesystem::remove(scratch / "a.nc"));
-  }
-}
-
 TEST(OutputFiles, ANetcdfFileThatGrowsTooLargeLeavesNothing) {
   const Scratch scratch;
   // Each limit in kB up to the first that suffices. The message goes into a pipe, which has none.
