@@ -137,7 +137,10 @@ bool may_be_lost(const fs::path& file) {
 
 bool is_same_file(const fs::path& one, const fs::path& other) {
   std::error_code error;
-  return destination_of(one) == destination_of(other) || fs::equivalent(one, other, error);
+  const auto whole = [&](const fs::path& path) {
+    return destination_of(fs::absolute(path, error));
+  };
+  return whole(one) == whole(other) || fs::equivalent(one, other, error);
 }
 
 }  // namespace
