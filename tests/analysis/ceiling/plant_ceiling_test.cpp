@@ -223,7 +223,9 @@ TEST(OracleCeilingOfPlants, OfPlainOnesUnderAComputerIsTheSumOfTheAnswers) {
     ++proved;
     const SummedAnswers summed = summed_answers(given, 32, 800);
     EXPECT_GE(*ceiling.load, summed.all * (1.0 - 1e-9));
-    if (has_ended(summed.late, summed.all)) EXPECT_LE(*ceiling.load, summed.all * 1.02);
+    if (has_ended(summed.late, summed.all)) {
+      EXPECT_LE(*ceiling.load, summed.all * 1.02);
+    }
   }
   EXPECT_GT(3 * proved, 2 * count);
 }
@@ -243,7 +245,9 @@ TEST(OracleCeilingOfPlants, UnderAComputerIsTheSumOfTheAnswers) {
       const SummedAnswers summed = summed_answers(given, 16, 1200);
       EXPECT_GE(*ceiling.load, summed.all * (1.0 - 1e-6));
       // A gap that is constant over the parts does a little less than a free one.
-      if (has_ended(summed.late, summed.all)) EXPECT_LE(*ceiling.load, summed.all * 1.05);
+      if (has_ended(summed.late, summed.all)) {
+        EXPECT_LE(*ceiling.load, summed.all * 1.05);
+      }
     }
     EXPECT_GE(proved, 2) << static_cast<int>(kind);
   }
