@@ -11,10 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/ceiling/held_torques.hpp"
 #include "analysis/ceiling/loop_gain.hpp"
-#include "analysis/ceiling/plant.hpp"
 #include "general/assemble/time_scale.hpp"
+#include "model/linear_drive.hpp"
 #include "numeric/linear_algebra.hpp"
 
 namespace gearlash::drive {
@@ -25,23 +24,9 @@ using Matrix = Eigen::MatrixXcd;
 using Vector = Eigen::VectorXcd;
 using Row = Eigen::RowVectorXcd;
 
-Complex middle_of(const Interval& interval) { return 0.5 * interval.low + 0.5 * interval.high; }
-
-Vector middle_of(const IntervalVector& numbers) {
-  Vector middle(static_cast<Eigen::Index>(numbers.size()));
-  for (Eigen::Index i = 0; i < middle.size(); ++i) {
-    middle[i] = middle_of(numbers[static_cast<std::size_t>(i)]);
-  }
-  return middle;
-}
-
-Matrix middle_of(const IntervalMatrix& matrix) {
-  const auto size = static_cast<Eigen::Index>(matrix.size());
-  Matrix middle(size, size);
-  for (Eigen::Index i = 0; i < size; ++i) {
-    middle.row(i) = middle_of(matrix.rows[static_cast<std::size_t>(i)]).transpose();
-  }
-  return middle;
+Vector vector_of(const std::vector<double>& numbers) {
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(),
+                                           static_cast<Eigen::Index>(numbers.size()));
 }
 
 // ---- the response -------------------------------------------------------------------------------
@@ -59,13 +44,33 @@ struct PlantMotion {
   std::vector<DelayedTorque> torques;
 };
 
-PlantMotion motion_of(const Plant& plant, const std::optional<Sampling>& sampling) {
-  if (!sampling) return {middle_of(plant.flow), {{middle_of(plant.torque), 0}}};
-  PlantMotion motion{middle_of(passage(plant.flow, {}, sampling->period).flow), {}};
-  for (const HeldTorque& held : held_torques(*sampling)) {
-    const LinearPassage during = passage(plant.flow, {plant.torque}, held.until - held.from);
-    const LinearPassage after = passage(plant.flow, {}, sampling->period - held.until);
-    motion.torques.push_back({middle_of(times(after.flow, during.of_inputs[0])), held.age});
+/// Over a time under one torque, e^{A t} and ∫e^{A s} ds b: the torque is a state that stands.
+struct Passage {
+  Eigen::MatrixXd flow;
+  Eigen::VectorXd of_torque;
+};
+Passage passage(const Eigen::MatrixXd& flow, const Eigen::VectorXd& of_torque, double time) {
+  const Eigen::Index size = flow.rows();
+  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(size + 1, size + 1);
+  whole.topLeftCorner(size, size) = time * flow;
+  whole.topRightCorner(size, 1) = time * of_torque;
+  const Eigen::MatrixXd passed = exponential(whole);
+  return {passed.topLeftCorner(size, size), passed.topRightCorner(size, 1)};
+}
+
+PlantMotion motion_of(const LinearDrive<double>& drive, const LinearSystem<double>& plant) {
+  const auto size = static_cast<Eigen::Index>(plant.size());
+  Eigen::MatrixXd flow(size, size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    flow.row(i) = vector_of(plant.slopes[static_cast<std::size_t>(i)].of_state).real().transpose();
+  }
+  const Eigen::VectorXd of_torque = vector_of(plant.column(LinearInput::torque)).real();
+  if (drive.holds.empty()) return {flow, {{of_torque, 0}}};
+  PlantMotion motion{passage(flow, of_torque, drive.period).flow, {}};
+  for (const Hold<double>& held : drive.holds) {
+    const Passage during = passage(flow, of_torque, held.until - held.from);
+    const Passage after = passage(flow, of_torque, drive.period - held.until);
+    motion.torques.push_back({Vector(after.flow * during.of_torque), held.age});
   }
   return motion;
 }
@@ -78,10 +83,7 @@ struct LoopResponse {
 
 class LoopTransfer {
  public:
-  explicit LoopTransfer(const ReducedDrive& drive)
-      : LoopTransfer(gearlash::plant_of(drive), drive.sampling,
-                     drive.sampling ? sampled_controller(drive.controller, *drive.sampling)
-                                    : linear_controller(drive.controller)) {}
+  explicit LoopTransfer(const LinearDrive<double>& drive);
 
   LoopResponse at(double frequency) const {
     const Complex advance = period_ > 0.0 ? std::polar(1.0, frequency * period_)  //
@@ -96,8 +98,6 @@ class LoopTransfer {
   }
 
  private:
-  LoopTransfer(const Plant& plant, const std::optional<Sampling>& sampling,
-               const LinearController& controller);
   Vector of_torque(const Complex& advance) const;
   Row of_inputs(const Complex& advance) const;
 
@@ -114,30 +114,31 @@ class LoopTransfer {
   Row direct_;
 };
 
-LoopTransfer::LoopTransfer(const Plant& plant, const std::optional<Sampling>& sampling,
-                           const LinearController& controller)
-    : motion_(motion_of(plant, sampling)),
-      period_(sampling ? sampling->period : 0.0),
-      counts_(sampling && sampling->speed_by_differences),
-      load_(middle_of(plant.load.of_state)),
-      position_(middle_of(plant.position.of_state)),
-      counted_(middle_of(plant.counted.of_state)),
-      speed_(middle_of(plant.speed.of_state)),
-      controller_flow_(controller.order(), controller.order()),
-      controller_inputs_(controller.order(), 3),
-      controller_output_(controller.order()),
-      direct_(3) {
-  for (Eigen::Index i = 0; i < controller_output_.size(); ++i) {
-    const auto row = static_cast<std::size_t>(i);
-    controller_output_[i] = controller.output[row];
-    for (Eigen::Index j = 0; j < controller_output_.size(); ++j) {
-      controller_flow_(i, j) = controller.state_matrix[row][static_cast<std::size_t>(j)];
-    }
-    for (Eigen::Index j = 0; j < 3; ++j) {
-      controller_inputs_(i, j) = controller.input_matrix[row][static_cast<std::size_t>(j)];
-    }
+/// Of the reference, the position and the speed. The row has the sum of the first two.
+Row inputs_of(const ControllerRow<double>& row) {
+  Row inputs(3);
+  inputs << row.reference - row.position, row.position, row.speed;
+  return inputs;
+}
+
+LoopTransfer::LoopTransfer(const LinearDrive<double>& drive)
+    : period_(drive.period), counts_(drive.counts) {
+  const LinearSystem<double> plant = drive.plant();
+  motion_ = motion_of(drive, plant);
+  load_ = vector_of(plant.load.of_state);
+  position_ = vector_of(plant.position.of_state);
+  counted_ = vector_of(plant.counted.of_state);
+  speed_ = vector_of(plant.speed.of_state);
+  const auto order = static_cast<Eigen::Index>(drive.order());
+  controller_flow_.resize(order, order);
+  controller_inputs_.resize(order, 3);
+  for (Eigen::Index i = 0; i < order; ++i) {
+    const ControllerRow<double>& row = drive.controller_states[static_cast<std::size_t>(i)];
+    controller_flow_.row(i) = vector_of(row.of_state).transpose();
+    controller_inputs_.row(i) = inputs_of(row);
   }
-  for (Eigen::Index j = 0; j < 3; ++j) direct_[j] = controller.direct[static_cast<std::size_t>(j)];
+  controller_output_ = vector_of(drive.torque.of_state).transpose();
+  direct_ = inputs_of(drive.torque);
 }
 
 /// (advance − flow)⁻¹ right.
@@ -256,10 +257,10 @@ std::optional<LinearLoop> loop_figures(const ReducedDrive& drive) {
   require_none(validate(drive));
   if (drive.error_shape.is_relay()) return std::nullopt;
   LinearLoop figures;
-  figures.is_stable = drive.sampling ? sampled_loop_decays(drive) : continuous_loop_decays(drive);
+  figures.is_stable = loop_decays(linear_drive(EnclosedDrive(drive)));
   const std::vector<double> frequencies = sampled_frequencies(drive);
   if (!figures.is_stable || frequencies.empty()) return figures;
-  const LoopTransfer loop(drive);
+  const LoopTransfer loop(linear_drive(drive));
   constexpr double turn = 2.0 * std::numbers::pi;  // from rad/s to Hz
   const double at_rest = std::abs(loop.at(frequencies.front()).closed);
   const std::vector<double> falls = crossings(

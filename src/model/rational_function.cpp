@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "numeric/transfer_polynomials.hpp"
+
 namespace gearlash::drive {
 namespace {
 
@@ -102,29 +104,19 @@ TransferFunction rounded(const RationalFunction& function, double delay) {
 
 namespace {
 
-using Row = std::vector<Rational>;
-using Square = std::vector<Row>;
-
 /// A controller with the anti-windup, if it acts, as one of its inputs:
 ///   τ − τ_asked = τ − output z − direct u.
-struct ExactController {
-  Square state_matrix;
-  Square input_columns;  ///< of r, y, v and the delivered torque
-  Row output;
-  Row direct;
-};
-
-ExactController exact(const LinearController& given, TorqueGiven torque) {
+LinearEquations<Rational> exact(const LinearController& given, TorqueGiven torque) {
   const std::size_t order = given.order();
   const bool winds_back = torque == TorqueGiven::limited && !given.anti_windup.empty();
   const auto draw = [&](std::size_t i) {
     return Rational(winds_back ? given.anti_windup[i] : 0.0);
   };
-  ExactController result;
+  LinearEquations<Rational> result;
   result.output.assign(given.output.begin(), given.output.end());
   result.direct.assign(given.direct.begin(), given.direct.end());
   result.direct.emplace_back(0);
-  result.input_columns.assign(4, Row(order));
+  result.input_columns.assign(4, std::vector<Rational>(order));
   for (std::size_t i = 0; i < order; ++i) {
     result.state_matrix.emplace_back(given.state_matrix[i].begin(), given.state_matrix[i].end());
     for (std::size_t j = 0; j < order; ++j) {
@@ -138,56 +130,12 @@ ExactController exact(const LinearController& given, TorqueGiven torque) {
   return result;
 }
 
-/// a b + shift I
-Square product(const Square& a, const Square& b, const Rational& shift) {
-  const std::size_t order = a.size();
-  Square result(order, Row(order));
-  for (std::size_t i = 0; i < order; ++i) {
-    for (std::size_t j = 0; j < order; ++j) {
-      for (std::size_t k = 0; k < order; ++k) result[i][j] += a[i][k] * b[k][j];
-    }
-    result[i][i] += shift;
-  }
-  return result;
-}
-
-Rational trace(const Square& matrix) {
-  Rational sum = 0;
-  for (std::size_t i = 0; i < matrix.size(); ++i) sum += matrix[i][i];
-  return sum;
-}
-
-Rational between(const Row& output, const Square& matrix, const Row& input) {
-  Rational sum = 0;
-  for (std::size_t i = 0; i < output.size(); ++i) {
-    for (std::size_t j = 0; j < input.size(); ++j) sum += output[i] * matrix[i][j] * input[j];
-  }
-  return sum;
-}
-
 }  // namespace
 
-/// (sI − A)⁻¹ = Σ Mₖ sⁿ⁻ᵏ/Σ cₖ sⁿ⁻ᵏ with M₁ = I, cₖ = −tr(A Mₖ)/k, Mₖ₊₁ = A Mₖ + cₖ I
-/// (Faddeev and Leverrier), which loses digits in floating point and none here.
 ExactControllerTransfer exact_transfer(const LinearController& controller, TorqueGiven torque) {
-  const ExactController given = exact(controller, torque);
-  const std::size_t order = controller.order();
-  std::vector<Rational> denominator(order + 1, Rational(0));  // ascending powers
-  std::vector<std::vector<Rational>> numerators(4, denominator);
-  denominator[order] = 1;
-  const Square zero(order, Row(order));
-  Square adjugate = product(zero, zero, 1);
-  for (std::size_t k = 1; k <= order; ++k) {
-    for (std::size_t input = 0; input < 4; ++input) {
-      numerators[input][order - k] = between(given.output, adjugate, given.input_columns[input]);
-    }
-    const Square moved = product(given.state_matrix, adjugate, 0);
-    denominator[order - k] = -trace(moved) / Rational(static_cast<long long>(k));
-    adjugate = product(given.state_matrix, adjugate, denominator[order - k]);
-  }
-  const Polynomial below(denominator);
+  const TransferPolynomials<Rational> found = transfer_polynomials(exact(controller, torque));
   const auto transfer = [&](std::size_t input) {
-    return RationalFunction(Polynomial(numerators[input]) + below * given.direct[input], below);
+    return RationalFunction(Polynomial(found.numerators[input]), Polynomial(found.denominator));
   };
   return {transfer(0), transfer(1), transfer(2), transfer(3)};
 }

@@ -404,6 +404,10 @@ Interval DecayingMotion::impulse_norm(const IntervalVector& input,
 
 std::vector<Interval> DecayingMotion::impulse_norms(
     const IntervalVector& input, const std::vector<IntervalVector>& outputs) const {
+  const auto is_nothing = [](const Interval& number) { return is_zero(number); };
+  if (std::all_of(input.begin(), input.end(), is_nothing)) {
+    return std::vector<Interval>(outputs.size(), Interval(0.0));
+  }
   const Transformed start = transformed_input(basis_, inverse_, input);
   std::vector<Part> parts;
   for (const Block& block : blocks_) {

@@ -50,22 +50,6 @@ IntervalMatrix exponential_series(const IntervalMatrix& matrix) {
 
 }  // namespace
 
-IntervalVector added(IntervalVector a, const IntervalVector& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] = a[i] + b[i];
-  return a;
-}
-
-IntervalVector scaled(const Interval& factor, IntervalVector vector) {
-  for (Interval& entry : vector) entry = factor * entry;
-  return vector;
-}
-
-Interval dot(const IntervalVector& row, const IntervalVector& column) {
-  Interval sum = 0.0;
-  for (std::size_t i = 0; i < row.size(); ++i) sum = sum + row[i] * column[i];
-  return sum;
-}
-
 IntervalVector times(const IntervalMatrix& matrix, const IntervalVector& column) {
   IntervalVector result;
   for (const IntervalVector& row : matrix.rows) result.push_back(dot(row, column));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/interval.hpp"
+#include "numeric/vector_algebra.hpp"
 
 namespace gearlash {
 
@@ -18,9 +19,6 @@ struct IntervalMatrix {
   std::size_t size() const { return rows.size(); }
 };
 
-IntervalVector added(IntervalVector a, const IntervalVector& b);
-IntervalVector scaled(const Interval& factor, IntervalVector vector);
-Interval dot(const IntervalVector& row, const IntervalVector& column);
 IntervalVector times(const IntervalMatrix& matrix, const IntervalVector& column);
 IntervalVector times(const IntervalVector& row, const IntervalMatrix& matrix);
 IntervalMatrix times(const IntervalMatrix& left, const IntervalMatrix& right);

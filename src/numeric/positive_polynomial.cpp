@@ -8,8 +8,6 @@ namespace {
 
 constexpr int deepest = 40;
 
-bool is_zero(const Interval& number) { return number.low == 0.0 && number.high == 0.0; }
-
 /// Whether the polynomial with these Bernstein coefficients is positive from 0 to 1.
 bool is_positive_between(const std::vector<Interval>& coefficients, int depth) {
   if (!(coefficients.front().low > 0.0 && coefficients.back().low > 0.0)) return false;

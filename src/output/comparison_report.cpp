@@ -11,6 +11,7 @@
 #include "base/progress_part.hpp"
 #include "base/range_check.hpp"
 #include "input/drive_file.hpp"
+#include "model/linear_drive.hpp"
 #include "output/columns.hpp"
 #include "output/drive_text.hpp"
 #include "output/json_values.hpp"
@@ -87,15 +88,6 @@ std::vector<std::string> row(const ComparisonReport& report, const std::string& 
   return cells;
 }
 
-bool uses_speed(const drive::ReducedDrive& drive) {
-  const drive::LinearController controller =
-      drive.sampling ? drive::sampled_controller(drive.controller, *drive.sampling)
-                     : drive::linear_controller(drive.controller);
-  return controller.direct[2] != 0.0 ||
-         std::any_of(controller.input_matrix.begin(), controller.input_matrix.end(),
-                     [](const std::vector<double>& row) { return row[2] != 0.0; });
-}
-
 std::string meaning(const ComparisonReport& report) {
   std::string text;
   for (const SensorCase& one : report.cases) {
@@ -105,8 +97,9 @@ std::string meaning(const ComparisonReport& report) {
           "the load is in the gap. ";
     } else if (one.place == SensorPlace::both) {
       text += "With both, the position is the load's and the speed is the motor's";
-      text +=
-          uses_speed(reduce(one.report.drive)) ? ". " : ", which this controller does not use. ";
+      text += linear_drive(reduce(one.report.drive)).uses_speed()
+                  ? ". "
+                  : ", which this controller does not use. ";
     }
   }
   for (const SensorCase& one : report.cases) {

@@ -9,7 +9,6 @@
 #include <variant>
 #include <vector>
 
-#include "analysis/ceiling/closed_gap.hpp"
 #include "analysis/ceiling/gap_speed.hpp"
 #include "analysis/ceiling/loop_gain.hpp"
 #include "base/arithmetic.hpp"
@@ -47,13 +46,13 @@ std::vector<Source> sources_of(const EnclosedDrive& drive) {
   const ReducedDrive& form = drive.form();
   std::vector<Source> sources;
   const auto add = [&](std::string_view name, Disturbance disturbance, const Interval& size) {
-    if (size.high > 0.0) sources.push_back({name, disturbance, size});
+    if (size.high > 0.0) sources.push_back({name, std::move(disturbance), size});
   };
-  add("gap", Disturbance::gap,
+  add("gap", {LinearInput::gap},
       0.5 * drive.number([](const ReducedDrive& d) { return d.backlash; }));
-  add("motor friction", Disturbance::torque_on_motor,
+  add("motor friction", {LinearInput::torque_on_motor},
       drive.number([](const ReducedDrive& d) { return d.motor.friction.breakaway; }));
-  add("load friction", Disturbance::torque_on_load,
+  add("load friction", {LinearInput::torque_on_load},
       drive.number([](const ReducedDrive& d) { return d.load.friction.breakaway; }));
   const Interval of_position =
       0.5 * drive.number([](const ReducedDrive& d) { return d.sensing.resolution; });
@@ -66,23 +65,23 @@ std::vector<Source> sources_of(const EnclosedDrive& drive) {
            d.sensing.resolution != d.sensing.resolution_of_speed;
   });
   if (counts && is_one_encoder) {
-    add("encoder", Disturbance::both_readings, of_position);
+    add("encoder", {LinearInput::position_reading, LinearInput::speed_reading}, of_position);
   } else {
-    add("encoder", Disturbance::position_reading, of_position);
-    if (counts) add("speed encoder", Disturbance::speed_reading, of_speed);
+    add("encoder", {LinearInput::position_reading}, of_position);
+    if (counts) add("speed encoder", {LinearInput::speed_reading}, of_speed);
   }
   // What it changes the error by is an error of the position.
   add(form.error_shape.inner_gain == 0.0 ? "dead band" : "backlash compensation",
-      Disturbance::position_reading,
+      {LinearInput::position_reading},
       drive.number([](const ReducedDrive& d) { return d.error_shape.largest_change(); }));
   if (!std::holds_alternative<double>(form.reference)) {
-    add(friction_compensation, Disturbance::torque_on_motor,
+    add(friction_compensation, {LinearInput::torque_on_motor},
         abs(drive.number([](const ReducedDrive& d) { return d.feedforward.torque; })));
-    add("backlash compensation", Disturbance::position_reading,
+    add("backlash compensation", {LinearInput::position_reading},
         abs(drive.number([](const ReducedDrive& d) { return d.feedforward.half_gap; })));
   }
   if (std::holds_alternative<drive::Sine>(form.load_torque)) {
-    add("load torque", Disturbance::torque_on_load, abs(drive.number([](const ReducedDrive& d) {
+    add("load torque", {LinearInput::torque_on_load}, abs(drive.number([](const ReducedDrive& d) {
           return std::get<drive::Sine>(d.load_torque).amplitude;
         })));
   }
@@ -97,75 +96,62 @@ struct Carried {
   Interval mesh;
 };
 
-bool is_weighed(const EnclosedDrive& drive) {
-  return drive.any_of([](const ReducedDrive& d) { return d.gravity.stiffness != 0.0; });
-}
-
 /// Why they are not known: the reference or the load torque moves in another way than along a ramp,
 /// or as a sine of the load torque, which is a source, or the motion does not follow the ramp.
 /// Empty if they are known.
-std::string obstacle_of_carried(const EnclosedDrive& drive) {
-  const ReducedDrive& form = drive.form();
+std::string obstacle_of_carried(const ReducedDrive& form, const LinearDrive<Interval>& linear) {
   const bool has_ramp = std::holds_alternative<drive::Ramp>(form.reference);
   const bool is_at_rest = std::holds_alternative<double>(form.reference);
   if (std::holds_alternative<drive::Ramp>(form.load_torque) || !(is_at_rest || has_ramp) ||
-      (has_ramp && is_weighed(drive))) {
+      (has_ramp && !is_zero(linear.weight))) {
     return "the reference or the load torque moves";
   }
-  if (!has_ramp || follows_reference(form)) return {};
+  if (!has_ramp || linear.knows_error_alone()) return {};
   return "along a ramp its proof needs a controller that knows reference and position by their "
          "difference alone";
 }
 
 /// Of rest, or of an even motion along a ramp. Precondition: no obstacle.
-Carried carried_by(const EnclosedDrive& drive, DisturbedLoop& loop) {
+Carried carried_by(const EnclosedDrive& drive, const LinearDrive<Interval>& linear,
+                   DisturbedLoop& loop) {
   const ReducedDrive& form = drive.form();
   const Interval load_torque =
       drive.number([](const ReducedDrive& d) { return drive::middle_of(d.load_torque); });
-  if (is_weighed(drive)) {
+  if (!is_zero(linear.weight)) {
     // What is constant displaces the loop by no more than anything of that size.
     const Interval reference =
         abs(drive.number([](const ReducedDrive& d) { return std::get<double>(d.reference); }));
-    const LoopGain of_torque = loop.gain(Disturbance::torque_on_load);
-    const LoopGain of_reference = loop.gain(Disturbance::reference);
+    const LoopGain of_torque = loop.gain({LinearInput::torque_on_load});
+    const LoopGain of_reference = loop.gain({LinearInput::reference});
     const auto displaced = [&](double LoopGain::*output) {
       Interval sum = abs(load_torque) * Interval(of_torque.*output);
       if (reference.high > 0.0) sum = sum + reference * Interval(of_reference.*output);
       return sum;
     };
-    const Interval weight =
-        abs(drive.number([](const ReducedDrive& d) { return d.gravity.stiffness; }));
     return Carried{displaced(&LoopGain::effort),
-                   abs(load_torque) + weight * displaced(&LoopGain::load)};
+                   abs(load_torque) + abs(linear.weight) * displaced(&LoopGain::load)};
   }
   Interval speed = 0.0;
   if (std::holds_alternative<drive::Ramp>(form.reference)) {
     speed =
         drive.number([](const ReducedDrive& d) { return std::get<drive::Ramp>(d.reference).rate; });
   }
-  const Interval load_friction =
-      drive.number([](const ReducedDrive& d) { return d.load.friction.viscous; });
-  Interval friction =
-      drive.number([](const ReducedDrive& d) { return d.motor.friction.viscous; }) + load_friction;
-  if (form.winding.time_constant > 0.0) {
-    friction = friction + drive.number([](const ReducedDrive& d) { return d.winding.back_emf; });
-  }
-  return Carried{friction * speed - load_torque, load_friction * speed - load_torque};
+  Interval friction = linear.motor_friction + linear.load_friction;
+  if (linear.lags) friction = friction + linear.back_emf;
+  return Carried{friction * speed - load_torque, linear.load_friction * speed - load_torque};
 }
 
 // ---- the gap's speed ----------------------------------------------------------------------------
 
 /// Empty if the torque that the mesh carries is not known.
-std::optional<GapMotion> gap_motion(const EnclosedDrive& drive, DisturbedLoop& loop,
-                                    const std::vector<ScaledSource>& sources,
+std::optional<GapMotion> gap_motion(const EnclosedDrive& drive, const LinearDrive<Interval>& linear,
+                                    DisturbedLoop& loop, const std::vector<ScaledSource>& sources,
                                     const std::optional<Carried>& carried) {
   using drive::RigidContact;
   if (!carried || !std::holds_alternative<RigidContact>(drive.form().contact)) return std::nullopt;
   // Once the faces part the mesh torque is gone.
   Interval acceleration =
-      abs(carried->mesh) * (1.0 / drive.number([](const ReducedDrive& d) {
-        return d.motor.inertia;
-      }) + 1.0 / drive.number([](const ReducedDrive& d) { return d.load.inertia; }));
+      abs(carried->mesh) * (1.0 / linear.motor_inertia + 1.0 / linear.load_inertia);
   for (const ScaledSource& one : sources) {
     acceleration = acceleration + one.source.size * Interval(one.gain.gap_acceleration);
   }
@@ -174,7 +160,7 @@ std::optional<GapMotion> gap_motion(const EnclosedDrive& drive, DisturbedLoop& l
                      return std::get<RigidContact>(d.contact).restitution;
                    }),
                    .acceleration = acceleration,
-                   .per_speed = loop.gain(Disturbance::gap_speed).gap_acceleration,
+                   .per_speed = loop.gain({LinearInput::gap_speed}).gap_acceleration,
                    .slope = loop.gap_acceleration_per_speed()};
 }
 
@@ -283,8 +269,8 @@ Ceiling ceiling_of(const EnclosedDrive& drive) {
   ceiling.reason = obstacle(form);
   if (ceiling.reason.empty()) ceiling.reason = fault_of_arithmetic();
   if (!ceiling.reason.empty()) return ceiling;
-  const std::unique_ptr<DisturbedLoop> loop =
-      form.sampling ? sampled_loop(drive) : continuous_loop(drive);
+  const LinearDrive<Interval> linear = linear_drive(drive);
+  const std::unique_ptr<DisturbedLoop> loop = disturbed_loop(linear);
   if (loop == nullptr) {
     ceiling.reason = "the loop with the gap closed is not proved stable";
     return ceiling;
@@ -292,21 +278,21 @@ Ceiling ceiling_of(const EnclosedDrive& drive) {
   std::vector<ScaledSource> sources = scaled_sources(drive, *loop);
   const bool has_current_limit = std::isfinite(form.winding.torque_limit);
   ceiling.is_below_limit = std::isfinite(form.torque_limit) || has_current_limit;
-  const std::string of_carried = obstacle_of_carried(drive);
+  const std::string of_carried = obstacle_of_carried(form, linear);
   std::optional<Carried> carried;
   if (of_carried.empty() && (ceiling.is_below_limit || loop->reads_gap_speed())) {
-    carried = carried_by(drive, *loop);
+    carried = carried_by(drive, linear, *loop);
   }
 
   Margin margin;
   Interval effort = 0.0;
   if (loop->reads_gap_speed()) {
-    margin.gap_motion = gap_motion(drive, *loop, sources, carried);
-    const LoopGain gain = loop->gain(Disturbance::gap_speed);
+    margin.gap_motion = gap_motion(drive, linear, *loop, sources, carried);
+    const LoopGain gain = loop->gain({LinearInput::gap_speed});
     margin.per_gap_speed = gain.effort;
     const GapSpeed speed = margin.gap_motion ? highest_gap_speed(*margin.gap_motion) : GapSpeed{};
     if (std::isfinite(speed.highest)) {
-      sources.push_back({{"gap speed", Disturbance::gap_speed, speed.highest}, gain});
+      sources.push_back({{"gap speed", {LinearInput::gap_speed}, speed.highest}, gain});
       ceiling.is_gap_speed_braked = speed.is_braked;
     } else if (gain.load > 0.0 || gain.motor > 0.0) {
       ceiling.reason = "a sampled tachometer: " + obstacle_of_gap_speed(of_carried);

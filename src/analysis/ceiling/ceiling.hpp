@@ -1,8 +1,8 @@
 // The ceiling of a drive's motion.
 #pragma once
 
-#include "analysis/ceiling/enclosed.hpp"
 #include "gearlash/answer.hpp"
+#include "model/enclosed.hpp"
 
 namespace gearlash {
 

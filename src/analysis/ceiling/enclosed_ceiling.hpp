@@ -8,11 +8,11 @@
 #include <variant>
 #include <vector>
 
-#include "analysis/ceiling/enclosed.hpp"
 #include "gearlash/bounds.hpp"
 #include "gearlash/drive.hpp"
 #include "gearlash/progress.hpp"
 #include "gearlash/quantity.hpp"
+#include "model/enclosed.hpp"
 
 namespace gearlash {
 

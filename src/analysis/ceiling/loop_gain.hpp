@@ -3,22 +3,29 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
-#include "analysis/ceiling/enclosed.hpp"
+#include "model/linear_drive.hpp"
 
 namespace gearlash {
 
-/// What disturbs the loop.
-enum class Disturbance {
-  gap,               ///< rad, the motor less the load
-  torque_on_motor,   ///< N m
-  torque_on_load,    ///< N m
-  position_reading,  ///< rad, error of the position that the controller receives
-  speed_reading,     ///< rad, error of the position whose differences are the speed
-  both_readings,     ///< rad, of both, from one encoder
-  reference,         ///< rad, a reference that the position follows: of_both()
-  gap_speed          ///< rad/s, as far as the controller reads it
-};
+/// What disturbs the loop at once and by the same number: one input, or both readings of one
+/// encoder.
+using Disturbance = std::vector<LinearInput>;
+
+/// What it does to a form at once.
+inline Interval at_once(const LinearForm<Interval>& form, const Disturbance& disturbance) {
+  Interval sum = 0.0;
+  for (const LinearInput input : disturbance) sum = sum + form[input];
+  return sum;
+}
+/// What it adds to each of the forms.
+inline IntervalVector at_once(const std::vector<LinearForm<Interval>>& forms,
+                              const Disturbance& disturbance) {
+  IntervalVector sums;
+  for (const LinearForm<Interval>& form : forms) sums.push_back(at_once(form, disturbance));
+  return sums;
+}
 
 /// Upper bounds per unit of the largest disturbance.
 struct LoopGain {
@@ -46,7 +53,7 @@ struct StartGain {
 class DisturbedLoop {
  public:
   virtual ~DisturbedLoop() = default;
-  virtual LoopGain gain(Disturbance disturbance) = 0;
+  virtual LoopGain gain(const Disturbance& disturbance) = 0;
   /// Infinite where none is known.
   virtual StartGain start_gain(StartOutput output) = 0;
   /// Whether the controller reads the gap's speed, so that the effort needs its bound.
@@ -54,33 +61,17 @@ class DisturbedLoop {
   virtual Interval gap_acceleration_per_speed() const = 0;  ///< 1/s; rigid faces only
 };
 
-/// What a row of the controller receives of a reference and of a position at it: the sum of both
-/// entries, which is 0 where it knows their difference alone.
-template <class Row>
-Interval of_both(const EnclosedController& controller, const Row& row) {
-  const auto differ = [&](const drive::LinearController& one) {
-    return row(one)[0] != -row(one)[1];
-  };
-  if (!controller.any_of(differ)) return 0.0;
-  return controller.number([&](const drive::LinearController& one) { return row(one)[0]; }) +
-         controller.number([&](const drive::LinearController& one) { return row(one)[1]; });
-}
+/// Null if it is not proved that the loop decays. Precondition: rigid faces, or compliant ones
+/// without damping or without a gap.
+std::unique_ptr<DisturbedLoop> disturbed_loop(const LinearDrive<Interval>& drive);
 
-/// Whether the controller's torque depends on the sensed speed.
-bool uses_speed(const drive::LinearController& controller);
+/// Whether it is proved that the loop decays, with the faces together. Any faces.
+bool loop_decays(const LinearDrive<Interval>& drive);
 
-/// Null if it is not proved that the loop decays. Preconditions: a continuous controller; rigid
-/// faces, or compliant ones without damping or without a gap.
-std::unique_ptr<DisturbedLoop> continuous_loop(const EnclosedDrive& drive);
-
-/// The same for a sampled controller, whose sampling is that of the form.
-std::unique_ptr<DisturbedLoop> sampled_loop(const EnclosedDrive& drive);
-
-/// Whether it is proved that the loop of a continuous controller decays, with the faces together.
-/// Any faces.
-bool continuous_loop_decays(const drive::ReducedDrive& drive);
-
-/// The same for a sampled controller.
-bool sampled_loop_decays(const drive::ReducedDrive& drive);
+/// The parts of both, by how the controller acts.
+std::unique_ptr<DisturbedLoop> continuous_loop(const LinearDrive<Interval>& drive);
+std::unique_ptr<DisturbedLoop> sampled_loop(const LinearDrive<Interval>& drive);
+bool continuous_loop_decays(const LinearDrive<Interval>& drive);
+bool sampled_loop_decays(const LinearDrive<Interval>& drive);
 
 }  // namespace gearlash

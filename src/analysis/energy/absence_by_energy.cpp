@@ -6,7 +6,6 @@
 
 #include "analysis/energy/loop_polynomials.hpp"
 #include "base/arithmetic.hpp"
-#include "base/datum.hpp"
 
 namespace gearlash {
 namespace {
@@ -25,33 +24,31 @@ bool is_at_rest_for_ever(const drive::Signal& signal) {
 
 }  // namespace
 
-bool is_absent_by_energy(const ReducedDrive& drive) {
+bool is_absent_by_energy(const EnclosedDrive& enclosed) {
+  const ReducedDrive& drive = enclosed.form();
   if (!proves() || !drive::has_linear_control(drive) || std::isfinite(drive.winding.torque_limit) ||
       drive.sampling || drive.sensing.resolution > 0.0 || std::isfinite(drive.torque_limit) ||
-      !is_at_rest_for_ever(drive.reference) || !is_at_rest_for_ever(drive.load_torque) ||
-      drive::linear_controller(drive.controller).order() > highest_order_of_polynomials) {
+      !is_at_rest_for_ever(drive.reference) || !is_at_rest_for_ever(drive.load_torque)) {
     return false;
   }
-  const LoopPolynomials loop = loop_polynomials(drive);
+  const LinearDrive<Interval> linear = linear_drive(enclosed);
+  if (linear.order() > highest_order_of_polynomials) return false;
+  const LoopPolynomials loop = loop_polynomials(linear);
   if (!is_stable(loop.closed)) return false;
   const Polynomial s{0.0, 1.0};
-  const Interval of_position = drive.sensing.load_share_of_position;
-  const Interval weight = datum(drive.gravity.stiffness);
-  const bool is_weighed = drive.gravity.stiffness != 0.0;
+  const bool is_weighed = !is_zero(linear.weight);
   // The mesh torque over the gap's speed has a pole at 0, whose residue must not be negative.
-  const Interval residue = weight * (1.0 - of_position) * loop.position[0];
+  const Interval residue = linear.weight * (1.0 - linear.position_share) * loop.position[0];
   if (is_weighed && residue.low < 0.0) return false;
   if (!has_dry_friction(drive)) {
     // Re of the mesh torque over the gap's speed, load·motor/(s·closed)
     return is_weighed
                ? has_positive_real_part(product(loop.load, loop.motor), product(s, loop.closed))
-               : has_positive_real_part(product(momentum_and_friction(drive.load), loop.motor),
-                                        loop.closed);
+               : has_positive_real_part(product(loop.load_momentum, loop.motor), loop.closed);
   }
   // Ports of motor and load are apart only where nothing is measured on the load.
-  const bool measures_load =
-      drive.sensing.load_share_of_position != 0.0 || drive.sensing.load_share_of_speed != 0.0;
-  return !measures_load && drive.load.friction.viscous > 0.0 && drive.gravity.stiffness >= 0.0 &&
+  const bool measures_load = !is_zero(linear.position_share) || !is_zero(linear.speed_share);
+  return !measures_load && linear.load_friction.low > 0.0 && linear.weight.low >= 0.0 &&
          has_positive_real_part(loop.motor, product(s, loop.denominator));
 }
 

@@ -1,7 +1,7 @@
 // A proof by energy that a drive cannot hunt, whatever its contact.
 #pragma once
 
-#include "model/drive.hpp"
+#include "model/enclosed.hpp"
 
 namespace gearlash {
 
@@ -11,6 +11,6 @@ namespace gearlash {
 /// (docs/explanation/absence-by-energy.md). Sufficient, not necessary. False for a
 /// sampled controller, an encoder, a torque limit or a signal that moves, of which nothing is
 /// proved here.
-bool is_absent_by_energy(const drive::ReducedDrive& drive);
+bool is_absent_by_energy(const EnclosedDrive& drive);
 
 }  // namespace gearlash

@@ -1,7 +1,7 @@
 // The linear loop of a drive as polynomials of s.
 #pragma once
 
-#include "model/drive.hpp"
+#include "model/linear_drive.hpp"
 #include "numeric/positive_polynomial.hpp"
 
 namespace gearlash {
@@ -10,26 +10,24 @@ namespace gearlash {
 /// torque on the load is −(load motor/closed) u. τ = (at_reference r − position y − speed
 /// v)/denominator with y from the reference r, which is constant.
 struct LoopPolynomials {
-  IntervalPolynomial denominator;  ///< of controller and winding
-  IntervalPolynomial position;
-  IntervalPolynomial speed;
-  IntervalPolynomial at_reference;
-  IntervalPolynomial motor;   ///< times denominator
-  IntervalPolynomial load;    ///< s (J_L s + F_L) + k_g
-  IntervalPolynomial closed;  ///< the loop with the gap closed, times denominator
+  IntervalPolynomial denominator{};  ///< of controller and winding
+  IntervalPolynomial position{};
+  IntervalPolynomial speed{};
+  IntervalPolynomial at_reference{};
+  IntervalPolynomial motor{};          ///< times denominator
+  IntervalPolynomial load_momentum{};  ///< J_L s + F_L
+  IntervalPolynomial load{};           ///< s load_momentum + k_g
+  IntervalPolynomial closed{};         ///< the loop with the gap closed, times denominator
 };
 
 /// Preconditions: a continuous controller of at most `highest_order_of_polynomials`.
-LoopPolynomials loop_polynomials(const drive::ReducedDrive& drive);
+LoopPolynomials loop_polynomials(const LinearDrive<Interval>& drive);
 
 /// Coefficients of a higher order lose their digits.
 inline constexpr std::size_t highest_order_of_polynomials = 12;
 
 /// p(−s).
 IntervalPolynomial conjugate(IntervalPolynomial polynomial);
-
-/// J s + F.
-IntervalPolynomial momentum_and_friction(const drive::Shaft& shaft);
 
 /// Whether it is proved that all roots have negative real parts.
 bool is_stable(const IntervalPolynomial& polynomial);

@@ -10,7 +10,6 @@
 
 #include "analysis/energy/loop_polynomials.hpp"
 #include "base/arithmetic.hpp"
-#include "base/datum.hpp"
 
 namespace gearlash {
 namespace {
@@ -91,27 +90,31 @@ bool is_covered(const ReducedDrive& drive) {
          std::holds_alternative<drive::RigidContact>(drive.contact) && !drive.sampling &&
          drive.sensing.resolution == 0.0 && !drive::has_dry_friction(drive) &&
          std::holds_alternative<double>(drive.load_torque) &&
-         std::holds_alternative<double>(drive.reference) &&
-         drive::linear_controller(drive.controller).order() <= highest_order_of_polynomials;
+         std::holds_alternative<double>(drive.reference);
 }
 
 /// N₀ = k_g y₀ − w, with closed(0) y₀ = denominator(0) w + at_reference(0) r. Precondition: the
 /// loop is stable.
-Interval torque_at_rest(const ReducedDrive& drive, const LoopPolynomials& loop) {
-  const Interval load_torque = datum(std::get<double>(drive.load_torque));
-  if (drive.gravity.stiffness == 0.0) return -load_torque;
-  const Interval reference = datum(std::get<double>(drive.reference));
+Interval torque_at_rest(const EnclosedDrive& drive, const LinearDrive<Interval>& linear,
+                        const LoopPolynomials& loop) {
+  const Interval load_torque =
+      drive.number([](const ReducedDrive& d) { return std::get<double>(d.load_torque); });
+  if (is_zero(linear.weight)) return -load_torque;
+  const Interval reference =
+      drive.number([](const ReducedDrive& d) { return std::get<double>(d.reference); });
   const Interval position =
       (loop.denominator.front() * load_torque + loop.at_reference.front() * reference) /
       loop.closed.front();
-  return datum(drive.gravity.stiffness) * position - load_torque;
+  return linear.weight * position - load_torque;
 }
 
 }  // namespace
 
-std::optional<double> highest_mean_mesh_torque(const ReducedDrive& drive) {
-  if (!proves() || !is_covered(drive)) return std::nullopt;
-  const LoopPolynomials loop = loop_polynomials(drive);
+std::optional<double> highest_mean_mesh_torque(const EnclosedDrive& drive) {
+  if (!proves() || !is_covered(drive.form())) return std::nullopt;
+  const LinearDrive<Interval> linear = linear_drive(drive);
+  if (linear.order() > highest_order_of_polynomials) return std::nullopt;
+  const LoopPolynomials loop = loop_polynomials(linear);
   if (!is_stable(loop.closed)) return std::nullopt;
   const Polynomial numerator = product({-1.0}, product(loop.load, loop.motor));
   std::vector<Response> responses;
@@ -130,7 +133,8 @@ std::optional<double> highest_mean_mesh_torque(const ReducedDrive& drive) {
     constexpr double slack = 1e-3;
     const Interval bound = (1.0 + slack) * Interval(seen);
     if (is_above(bound, numerator, loop.closed, lambda)) {
-      return (abs(torque_at_rest(drive, loop)) + 0.5 * datum(drive.backlash) * bound).high;
+      const Interval backlash = drive.number([](const ReducedDrive& d) { return d.backlash; });
+      return (abs(torque_at_rest(drive, linear, loop)) + 0.5 * backlash * bound).high;
     }
   }
   return std::nullopt;

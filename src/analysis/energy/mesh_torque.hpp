@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "model/drive.hpp"
+#include "model/enclosed.hpp"
 
 namespace gearlash {
 
@@ -13,6 +13,6 @@ namespace gearlash {
 /// whose numbers agree with the given ones to 64 units in the last place. Rigid faces, a continuous
 /// controller, constant reference and load torque. Empty for other drives, with dry friction or an
 /// encoder, and where no bound is found.
-std::optional<double> highest_mean_mesh_torque(const drive::ReducedDrive& drive);
+std::optional<double> highest_mean_mesh_torque(const EnclosedDrive& drive);
 
 }  // namespace gearlash
