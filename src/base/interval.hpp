@@ -223,4 +223,38 @@ inline Interval atan2(const Interval& y, const Interval& x) {
   return settled(outward::well_below(least), outward::well_above(most));
 }
 
+namespace outward {
+
+/// Of a function that is 1 where `half_turns` is even, −1 where it is odd, and monotone between,
+/// with these values at the ends.
+inline Interval swing(const Interval& half_turns, double one, double other) {
+  const double first = std::ceil(half_turns.low);
+  const double last = std::floor(half_turns.high);
+  const auto has = [&](double remainder) {
+    return (std::abs(std::fmod(first, 2.0)) == remainder ? first : first + 1.0) <= last;
+  };
+  return {has(1.0) ? -1.0 : std::max(-1.0, library_below(std::min(one, other))),
+          has(0.0) ? 1.0 : std::min(1.0, library_above(std::max(one, other)))};
+}
+
+/// Beyond some turns an angle's error in half turns is no longer small.
+inline bool is_of_few_turns(const Interval& x) { return x.low >= -1e3 && x.high <= 1e3; }
+
+/// It contains π.
+inline Interval half_turn() { return {0x1.921fb54442d18p+1, 0x1.921fb54442d19p+1}; }
+
+}  // namespace outward
+
+/// −1 … 1 for angles beyond a thousand radians.
+inline Interval cos(const Interval& x) {
+  if (!outward::is_of_few_turns(x)) return {-1.0, 1.0};
+  return outward::swing(x / outward::half_turn(), std::cos(x.low), std::cos(x.high));
+}
+
+/// The same. Of 0 it is exactly 0.
+inline Interval sin(const Interval& x) {
+  if (!outward::is_of_few_turns(x)) return {-1.0, 1.0};
+  return outward::swing(x / outward::half_turn() - 0.5, std::sin(x.low), std::sin(x.high));
+}
+
 }  // namespace gearlash

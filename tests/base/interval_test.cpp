@@ -51,6 +51,45 @@ TEST(PropertyInterval, ArithmeticHoldsForEveryPairOfNumbers) {
   }
 }
 
+/// Angles within some turns, often about an extreme or a zero, and beyond.
+TEST(PropertyInterval, CosineAndSineHoldForEveryAngle) {
+  constexpr std::uint64_t seed = 1804;
+  SCOPED_TRACE(seed);
+  SeededDraws draws(seed);
+  double widest = 0.0;
+  for (int i = 0; i < 20000; ++i) {
+    const double quarter = 0x1.921fb54442d18p+0 * std::round(draws.uniform(-40.0, 40.0));
+    const double from = draws.happens(0.6) ? quarter - draws.log_uniform(1e-17, 1.0)
+                                           : draws.either_sign(1e-20, 3e3);
+    const Interval x{from, from + draws.log_uniform(1e-17, 8.0)};
+    const Interval cosine = cos(x);
+    const Interval sine = sin(x);
+    for (int k = 0; k < 5; ++k) {
+      const Wide angle = random_within(draws, x);
+      expect_holds(cosine, std::cos(angle), "cosine");
+      expect_holds(sine, std::sin(angle), "sine");
+    }
+    const Interval point = x.low;
+    if (std::abs(x.low) < 1e3) widest = std::fmax(widest, cos(point).width());
+    EXPECT_LE(cosine.high, 1.0);
+    EXPECT_GE(sine.low, -1.0);
+  }
+  EXPECT_LT(widest, 3e-15);
+}
+
+TEST(Interval, CosineReachesItsExtremes) {
+  const double turn = 6.283185307179586;
+  EXPECT_EQ(cos(Interval(turn - 0.1, turn + 0.1)).high, 1.0);
+  EXPECT_EQ(cos(Interval(0.5 * turn - 0.1, 0.5 * turn + 0.1)).low, -1.0);
+  EXPECT_EQ(sin(Interval(0.25 * turn - 0.1, 0.25 * turn + 0.1)).high, 1.0);
+  EXPECT_EQ(sin(Interval(-0.25 * turn - 0.1, -0.25 * turn + 0.1)).low, -1.0);
+  EXPECT_LT(cos(Interval(0.1, 3.0)).high, 0.996);
+  EXPECT_EQ(cos(Interval(0.1, 9.0)).high, 1.0);
+  EXPECT_EQ(sin(Interval(0.0)).high, 0.0);
+  EXPECT_EQ(sin(Interval(0.0)).low, 0.0);
+  EXPECT_EQ(cos(Interval(0.0, infinity)).low, -1.0);
+}
+
 TEST(PropertyInterval, PointsWidenToNeighbours) {
   SeededDraws draws(1802);
   for (int i = 0; i < 20000; ++i) {
@@ -90,7 +129,13 @@ TEST(OracleInterval, TheLibrarysFunctionsAreAsExactAsDocumented) {
        [](Wide x) { return std::log1p(x); },
        [](SeededDraws& draws) {
          return draws.happens(0.5) ? draws.log_uniform(1e-15, 1e300) : -draws.uniform(0.0, 1.0);
-       }}};
+       }},
+      {"cos", [](const Interval& x) { return cos(x); }, [](double x) { return std::cos(x); },
+       [](Wide x) { return std::cos(x); },
+       [](SeededDraws& draws) { return draws.either_sign(1e-10, 1e3); }},
+      {"sin", [](const Interval& x) { return sin(x); }, [](double x) { return std::sin(x); },
+       [](Wide x) { return std::sin(x); },
+       [](SeededDraws& draws) { return draws.either_sign(1e-10, 1e3); }}};
   for (const Known& function : functions) {
     SeededDraws draws(1803);
     double worst = 0.0;
