@@ -1,0 +1,84 @@
+// Matrices of any numbers, intervals among them, and their inverse.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <type_traits>
+
+#include "base/number.hpp"
+
+namespace Eigen {
+
+template <>
+struct NumTraits<gearlash::Interval> : GenericNumTraits<gearlash::Interval> {
+  enum { RequireInitialization = 1, ReadCost = 2, AddCost = 8, MulCost = 16 };
+};
+
+}  // namespace Eigen
+
+namespace gearlash {
+
+template <class Number>
+using MatrixOf = Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic>;
+template <class Number>
+using VectorOf = Eigen::Matrix<Number, Eigen::Dynamic, 1>;
+
+/// factor · left · right. Products with an exact 0 are left out: sums with them would be widened.
+template <class Number, class Left, class Right>
+Eigen::Matrix<Number, Eigen::Dynamic, Right::ColsAtCompileTime> product(const Number& factor,
+                                                                        const Left& left,
+                                                                        const Right& right) {
+  if constexpr (std::is_same_v<Number, double>) {
+    return factor * left * right;
+  } else {
+    Eigen::Matrix<Number, Eigen::Dynamic, Right::ColsAtCompileTime> result(left.rows(),
+                                                                           right.cols());
+    for (Eigen::Index i = 0; i < left.rows(); ++i) {
+      for (Eigen::Index j = 0; j < right.cols(); ++j) {
+        Number sum = 0.0;
+        for (Eigen::Index k = 0; k < left.cols(); ++k) {
+          const Number term = left.coeff(i, k) * right.coeff(k, j);
+          if (!is_exactly(term, 0.0)) sum = is_exactly(sum, 0.0) ? term : Number(sum + term);
+        }
+        result(i, j) = is_exactly(factor, 1.0) ? sum : Number(factor * sum);
+      }
+    }
+    return result;
+  }
+}
+
+/// By Gauss and Jordan with partial pivoting. Of intervals it contains the inverse of every matrix
+/// within; the whole line where a pivot may be 0.
+template <class Number>
+MatrixOf<Number> inverse_by_elimination(MatrixOf<Number> matrix) {
+  const Eigen::Index size = matrix.rows();
+  MatrixOf<Number> inverse = MatrixOf<Number>::Identity(size, size);
+  const auto subtract = [&](MatrixOf<Number>& from, Eigen::Index row, const Number& factor,
+                            Eigen::Index of) {
+    for (Eigen::Index j = 0; j < size; ++j) {
+      if (is_exactly(from(of, j), 0.0)) continue;
+      from(row, j) = from(row, j) - factor * from(of, j);
+    }
+  };
+  for (Eigen::Index k = 0; k < size; ++k) {
+    Eigen::Index pivot = k;
+    for (Eigen::Index i = k + 1; i < size; ++i) {
+      if (std::abs(approximate(matrix(i, k))) > std::abs(approximate(matrix(pivot, k)))) pivot = i;
+    }
+    matrix.row(k).swap(matrix.row(pivot));
+    inverse.row(k).swap(inverse.row(pivot));
+    for (Eigen::Index i = 0; i < size; ++i) {
+      if (i == k || is_exactly(matrix(i, k), 0.0)) continue;
+      const Number factor = matrix(i, k) / matrix(k, k);
+      subtract(matrix, i, factor, k);
+      subtract(inverse, i, factor, k);
+      matrix(i, k) = Number(0.0);
+    }
+  }
+  for (Eigen::Index k = 0; k < size; ++k) {
+    for (Eigen::Index j = 0; j < size; ++j) inverse(k, j) = inverse(k, j) / matrix(k, k);
+  }
+  return inverse;
+}
+
+}  // namespace gearlash
