@@ -481,7 +481,7 @@ Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress,
       const Scales scales = scales_of(*analysis.servo, box);
       analysis.answer.bounds = bounds_of(*analysis.closed->bounds, scales);
     }
-  } else if (is_absent_by_energy(analysis.reduced)) {
+  } else if (is_absent_by_energy(drive)) {
     analysis.search = drive::AttractorSearch{};
     analysis.answer = answer_by_energy(analysis.reduced);
   } else {
@@ -501,9 +501,9 @@ Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress,
     }
     analysis.answer = answer_of(*analysis.search, analysis.reduced);
   }
-  add_figures(analysis.reduced, wanted, analysis.answer, progress);
+  add_figures(drive, wanted, analysis.answer, progress);
   if (wanted.ceiling) {
-    analysis.answer.ceiling->mesh_torque = highest_mean_mesh_torque(analysis.reduced);
+    analysis.answer.ceiling->mesh_torque = highest_mean_mesh_torque(drive);
   }
   // The motion from which a ceiling is measured stands in the end, unless a sine drives it.
   if (!is_driven(analysis.reduced)) withdraw_if_contradictory(analysis.answer);
@@ -543,9 +543,9 @@ void ask_for(Quantity quantity, const Drive& base, Wanted& wanted) {
   }
 }
 
-void add_figures(const drive::ReducedDrive& drive, const Wanted& wanted, Answer& answer,
-                 Progress& progress) {
-  if (wanted.ceiling) answer.ceiling = ceiling_of(drive);
+void add_figures(const Drive& of, const Wanted& wanted, Answer& answer, Progress& progress) {
+  if (wanted.ceiling) answer.ceiling = ceiling_of(of);
+  const drive::ReducedDrive drive = reduce_settled(of);
   // The closed form permits what cannot be followed: no gap, which the loop leaves out anyway, and
   // a shaft without inertia.
   drive::ReducedDrive with_gap = drive;

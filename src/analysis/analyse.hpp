@@ -50,8 +50,7 @@ bool is_at_rest(Verdict verdict);
 void ask_for(Quantity quantity, const Drive& base, Wanted& wanted);
 
 /// What is computed without the motions that the drive ends in: ceiling, linear loop and step.
-void add_figures(const drive::ReducedDrive& drive, const Wanted& wanted, Answer& answer,
-                 Progress& progress);
+void add_figures(const Drive& drive, const Wanted& wanted, Answer& answer, Progress& progress);
 
 /// The answer that follows from a search. `reduced`: the searched drive.
 Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive& reduced);

@@ -67,7 +67,7 @@ PlantMotion motion_of(const LinearDrive<double>& drive, const LinearSystem<doubl
   const Eigen::VectorXd of_torque = vector_of(plant.column(LinearInput::torque)).real();
   if (drive.holds.empty()) return {flow, {{of_torque, 0}}};
   PlantMotion motion{passage(flow, of_torque, drive.period).flow, {}};
-  for (const Hold<double>& held : drive.holds) {
+  for (const HeldTorque& held : drive.holds) {
     const Passage during = passage(flow, of_torque, held.until - held.from);
     const Passage after = passage(flow, of_torque, drive.period - held.until);
     motion.torques.push_back({Vector(after.flow * during.of_torque), held.age});

@@ -147,9 +147,6 @@ inline Interval operator/(const Interval& x, const Interval& y) {
   return Interval::whole_line();
 }
 
-/// Whether it is 0 alone.
-inline bool is_zero(const Interval& x) { return x.low == 0.0 && x.high == 0.0; }
-
 /// The smallest interval around both.
 inline Interval hull(const Interval& x, const Interval& y) {
   return {std::min(x.low, y.low), std::max(x.high, y.high)};

@@ -6,18 +6,20 @@
 namespace gearlash {
 
 /// What remains of any motor once it is referred to the load's shaft. SI units.
-struct Drivetrain {
-  double motor_inertia = 0.0;   ///< J_M, kg m², ≥ 0
-  double load_inertia = 0.0;    ///< J_L, kg m², ≥ 0; not both zero
-  double motor_friction = 0.0;  ///< F_M, N m s/rad, ≥ 0; includes back-EMF or speed-torque slope
-  double load_friction = 0.0;   ///< F_L, N m s/rad, ≥ 0
-  double stiffness = 0.0;       ///< K, N m/rad, > 0: torque at the load per unit position error
-  double backlash = 0.0;        ///< b, rad, ≥ 0, face to face at the load shaft
-  double restitution = 0.0;     ///< e, 0 … 1
+template <class Number>
+struct DrivetrainOf {
+  Number motor_inertia = 0.0;   ///< J_M, kg m², ≥ 0
+  Number load_inertia = 0.0;    ///< J_L, kg m², ≥ 0; not both zero
+  Number motor_friction = 0.0;  ///< F_M, N m s/rad, ≥ 0; includes back-EMF or speed-torque slope
+  Number load_friction = 0.0;   ///< F_L, N m s/rad, ≥ 0
+  Number stiffness = 0.0;       ///< K, N m/rad, > 0: torque at the load per unit position error
+  Number backlash = 0.0;        ///< b, rad, ≥ 0, face to face at the load shaft
+  Number restitution = 0.0;     ///< e, 0 … 1
   ShaftName sensor = ShaftName::load;
 
-  bool operator==(const Drivetrain&) const = default;
+  bool operator==(const DrivetrainOf&) const = default;
 };
+using Drivetrain = DrivetrainOf<double>;
 
 /// Every fault in the ranges above and in those of the normalised servo.
 std::vector<Fault> validate(const Drivetrain& drivetrain);

@@ -4,23 +4,33 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/interval.hpp"
 #include "model/controller.hpp"
 
 namespace gearlash {
 
-struct HeldTorque {
-  double from = 0.0;    ///< s after a tick
-  double until = 0.0;   ///< s after the same tick
+template <class Number>
+struct HeldTorqueOf {
+  Number from = 0.0;    ///< s after a tick
+  Number until = 0.0;   ///< s after the same tick
   std::size_t age = 0;  ///< ticks since the readings of which it was worked out
+
+  static constexpr auto members() {
+    return std::make_tuple(&HeldTorqueOf::from, &HeldTorqueOf::until, &HeldTorqueOf::age);
+  }
 };
+using HeldTorque = HeldTorqueOf<double>;
 
 /// In order, from one tick to the next. Precondition: a sound sampling.
-inline std::vector<HeldTorque> held_torques(const drive::Sampling& sampling) {
-  const drive::SplitDelay delay = drive::split_delay(sampling);
-  if (delay.rest == 0.0) return {{0.0, sampling.period, 0}};
-  const auto newest = static_cast<std::size_t>(delay.whole_periods);
-  if (delay.rest >= sampling.period) return {{0.0, sampling.period, newest + 1}};
-  return {{0.0, delay.rest, newest + 1}, {delay.rest, sampling.period, newest}};
-}
+std::vector<HeldTorque> held_torques(const drive::Sampling& sampling);
+
+/// Contains those of every sampling within, of which `form` is one.
+///
+/// A delay of whole periods by split_delay() may be a little shorter or longer. The torque before
+/// it and the one after it then are held too, over a time from 0 to that little. Not so where the
+/// form's delay is the rounded product of its period, or their shortest decimals are a multiple:
+/// that is what was written.
+std::vector<HeldTorqueOf<Interval>> held_torques(const drive::SamplingOf<Interval>& sampling,
+                                                 const drive::Sampling& form);
 
 }  // namespace gearlash

@@ -1,19 +1,17 @@
 #include "model/linear_drive.hpp"
 
 #include <algorithm>
-#include <type_traits>
 #include <utility>
 #include <variant>
 
-#include "model/held_torques.hpp"
+#include "base/number.hpp"
+#include "model/controller.hpp"
 
 namespace gearlash {
 namespace {
 
-using drive::LinearController;
 using drive::ReducedDrive;
 
-bool is_zero(double number) { return number == 0.0; }
 template <class Number>
 using Vector = std::vector<Number>;
 template <class Number>
@@ -177,102 +175,39 @@ System<Number> sprung_plant(const LinearDrive<Number>& drive) {
 // ---- from a reduced drive -----------------------------------------------------------------------
 
 template <class Number>
-Number datum_of(double value) {
-  if constexpr (std::is_same_v<Number, double>) {
-    return value;
-  } else {
-    return datum(value);
-  }
+ControllerRow<Number> row_of(const Vector<Number>& inputs, Vector<Number> of_state) {
+  return {.of_state = std::move(of_state),
+          .reference = drive::of_both(inputs),
+          .position = inputs[1],
+          .speed = inputs[2]};
 }
 
-/// One drive as Enclosed shows many.
-template <class Model>
-class Single {
- public:
-  explicit Single(Model one) : one_(std::move(one)) {}
-  const Model& form() const { return one_; }
-  template <class Read>
-  double number(const Read& read) const {
-    return read(one_);
-  }
-  template <class Make>
-  auto made(const Make& make) const {
-    return Single<decltype(make(one_))>(make(one_));
-  }
-  template <class Property>
-  bool any_of(const Property& property) const {
-    return property(one_);
-  }
-
- private:
-  Model one_;
-};
-
-/// `row`: what the controller receives, of a LinearController.
-template <class Number, class Controllers, class Row>
-ControllerRow<Number> row_of(const Controllers& controllers, const Row& row) {
-  const auto number = [&](std::size_t i) {
-    return Number(controllers.number([&](const LinearController& one) { return row(one)[i]; }));
-  };
-  const bool differ =
-      controllers.any_of([&](const LinearController& one) { return row(one)[0] != -row(one)[1]; });
-  return {.of_state = {},
-          .reference = differ ? number(0) + number(1) : Number(0.0),
-          .position = number(1),
-          .speed = number(2)};
-}
-
-template <class Number, class Controllers>
-void add_controller(LinearDrive<Number>& linear, const Controllers& controllers) {
-  const std::size_t order = controllers.form().order();
-  linear.torque =
-      row_of<Number>(controllers, [](const LinearController& c) -> auto& { return c.direct; });
-  for (std::size_t i = 0; i < order; ++i) {
-    linear.torque.of_state.push_back(
-        controllers.number([i](const LinearController& c) { return c.output[i]; }));
-    ControllerRow<Number>& state = linear.controller_states.emplace_back(row_of<Number>(
-        controllers, [i](const LinearController& c) -> auto& { return c.input_matrix[i]; }));
-    for (std::size_t j = 0; j < order; ++j) {
-      state.of_state.push_back(
-          controllers.number([i, j](const LinearController& c) { return c.state_matrix[i][j]; }));
-    }
-  }
-}
-
-template <class Number, class Drives>
-LinearDrive<Number> made_of(const Drives& drives) {
-  using drive::CompliantContact;
-  const ReducedDrive& form = drives.form();
+/// `form` says what the drive consists of.
+template <class Number>
+LinearDrive<Number> made_of(const ReducedDrive& form, const drive::ReducedDriveOf<Number>& numbers,
+                            const drive::LinearControllerOf<Number>& controller) {
   LinearDrive<Number> linear;
-  linear.motor_inertia = drives.number([](const ReducedDrive& d) { return d.motor.inertia; });
-  linear.load_inertia = drives.number([](const ReducedDrive& d) { return d.load.inertia; });
-  linear.motor_friction =
-      drives.number([](const ReducedDrive& d) { return d.motor.friction.viscous; });
-  linear.load_friction =
-      drives.number([](const ReducedDrive& d) { return d.load.friction.viscous; });
-  linear.weight = drives.number([](const ReducedDrive& d) { return d.gravity.stiffness; });
-  linear.back_emf = drives.number([](const ReducedDrive& d) { return d.winding.back_emf; });
-  linear.electrical_time =
-      drives.number([](const ReducedDrive& d) { return d.winding.time_constant; });
+  linear.motor_inertia = numbers.motor.inertia;
+  linear.load_inertia = numbers.load.inertia;
+  linear.motor_friction = numbers.motor.friction.viscous;
+  linear.load_friction = numbers.load.friction.viscous;
+  linear.weight = numbers.gravity.stiffness;
+  linear.back_emf = numbers.winding.back_emf;
+  linear.electrical_time = numbers.winding.time_constant;
   linear.lags = form.winding.time_constant > 0.0;
   linear.position_share = form.sensing.load_share_of_position;
   linear.speed_share = form.sensing.load_share_of_speed;
-  if (std::holds_alternative<CompliantContact>(form.contact)) {
-    const auto faces =
-        drives.made([](const ReducedDrive& d) { return std::get<CompliantContact>(d.contact); });
-    linear.spring = {faces.number([](const CompliantContact& f) { return f.stiffness; }),
-                     faces.number([](const CompliantContact& f) { return f.damping; })};
+  if (const auto* faces = std::get_if<drive::CompliantContactOf<Number>>(&numbers.contact)) {
+    linear.spring = {faces->stiffness, faces->damping};
   }
-  add_controller(linear, drives.made([](const ReducedDrive& d) {
-    return d.sampling ? drive::sampled_controller(d.controller, *d.sampling)
-                      : drive::linear_controller(d.controller);
-  }));
+  linear.torque = row_of(controller.direct, controller.output);
+  for (std::size_t i = 0; i < controller.order(); ++i) {
+    linear.controller_states.push_back(
+        row_of(controller.input_matrix[i], controller.state_matrix[i]));
+  }
   if (!form.sampling) return linear;
-  linear.period = drives.number([](const ReducedDrive& d) { return d.sampling->period; });
+  linear.period = numbers.sampling->period;
   linear.counts = linear.uses_speed() && form.sampling->speed_by_differences;
-  for (const HeldTorque& held : held_torques(*form.sampling)) {
-    linear.holds.push_back({datum_of<Number>(held.from), datum_of<Number>(held.until), held.age});
-  }
   return linear;
 }
 
@@ -293,16 +228,17 @@ IntervalMatrix flow_of(const LinearSystem<Interval>& system) {
 
 template <class Number>
 bool LinearDrive<Number>::uses_speed() const {
-  return !is_zero(torque.speed) ||
+  return !is_exactly(torque.speed, 0.0) ||
          std::any_of(controller_states.begin(), controller_states.end(),
-                     [](const ControllerRow<Number>& row) { return !is_zero(row.speed); });
+                     [](const ControllerRow<Number>& row) { return !is_exactly(row.speed, 0.0); });
 }
 
 template <class Number>
 bool LinearDrive<Number>::knows_error_alone() const {
-  return is_zero(torque.reference) &&
-         std::all_of(controller_states.begin(), controller_states.end(),
-                     [](const ControllerRow<Number>& row) { return is_zero(row.reference); });
+  return is_exactly(torque.reference, 0.0) &&
+         std::all_of(
+             controller_states.begin(), controller_states.end(),
+             [](const ControllerRow<Number>& row) { return is_exactly(row.reference, 0.0); });
 }
 
 template <class Number>
@@ -335,7 +271,7 @@ LinearSystem<Number> LinearDrive<Number>::loop() const {
   }
   for (LinearForm<Number>* form : forms_of(loop)) {
     const Number share = std::exchange((*form)[LinearInput::torque], Number(0.0));
-    if (!is_zero(share)) *form = std::move(*form) + share * requested;
+    if (!is_exactly(share, 0.0)) *form = std::move(*form) + share * requested;
   }
   eliminate_gap_speed(loop);
   return loop;
@@ -347,9 +283,18 @@ template struct LinearDrive<double>;
 template struct LinearDrive<Interval>;
 
 LinearDrive<double> linear_drive(const ReducedDrive& drive) {
-  return made_of<double>(Single<ReducedDrive>(drive));
+  if (!drive.sampling) return made_of(drive, drive, drive::linear_controller(drive.controller));
+  const drive::Sampling& sampling = *drive.sampling;
+  LinearDrive<double> linear =
+      made_of(drive, drive, drive::sampled_controller(drive.controller, sampling));
+  linear.holds = held_torques(sampling);
+  return linear;
 }
 
-LinearDrive<Interval> linear_drive(const EnclosedDrive& drive) { return made_of<Interval>(drive); }
+LinearDrive<Interval> linear_drive(const EnclosedDrive& drive) {
+  LinearDrive<Interval> linear = made_of(drive.form(), drive.numbers(), drive.controller());
+  linear.holds = drive.held_torques();
+  return linear;
+}
 
 }  // namespace gearlash

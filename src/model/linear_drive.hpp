@@ -9,7 +9,8 @@
 
 #include "base/interval.hpp"
 #include "model/drive.hpp"
-#include "model/enclosed.hpp"
+#include "model/enclosed_drive.hpp"
+#include "model/held_torques.hpp"
 #include "numeric/interval_algebra.hpp"
 #include "numeric/vector_algebra.hpp"
 
@@ -106,14 +107,6 @@ struct ControllerRow {
   Number speed{0.0};
 };
 
-/// One torque over a part of the time between two ticks of a sampled controller.
-template <class Number>
-struct Hold {
-  Number from{0.0};     ///< s after the tick
-  Number until{0.0};    ///< s after the same tick
-  std::size_t age = 0;  ///< ticks since the readings of which the torque was worked out
-};
-
 /// The numbers of shafts, winding, faces, sensors and controller, at the load's shaft.
 template <class Number>
 struct LinearDrive {
@@ -136,8 +129,8 @@ struct LinearDrive {
   std::vector<ControllerRow<Number>> controller_states{};  ///< their slopes, or their next values
   // Of a sampled controller.
   Number period{0.0};
-  std::vector<Hold<Number>> holds{};  ///< none: continuous
-  bool counts = false;                ///< the speed is a difference of positions
+  std::vector<HeldTorqueOf<Number>> holds{};  ///< none: continuous
+  bool counts = false;                        ///< the speed is a difference of positions
 
   std::size_t order() const { return controller_states.size(); }
   /// Whether the controller's torque depends on the sensed speed.

@@ -28,17 +28,6 @@ bool is_smooth(const ReducedDrive& drive) {
 
 }  // namespace
 
-ReducedDrive drive_of(const Drivetrain& drivetrain) {
-  ReducedDrive drive;
-  drive.motor = {drivetrain.motor_inertia, {.viscous = drivetrain.motor_friction}};
-  drive.load = {drivetrain.load_inertia, {.viscous = drivetrain.load_friction}};
-  drive.backlash = drivetrain.backlash;
-  drive.contact = RigidContact{drivetrain.restitution};
-  drive.sensing.load_share_of_position = drivetrain.sensor == ShaftName::load ? 1.0 : 0.0;
-  drive.controller = ProportionalDerivative{.proportional = drivetrain.stiffness};
-  return drive;
-}
-
 std::optional<Drivetrain> proportional_servo(const ReducedDrive& drive) {
   const std::optional<Drivetrain> drivetrain = proportional_drivetrain(drive);
   return drivetrain && validate(*drivetrain).empty() ? drivetrain : std::nullopt;

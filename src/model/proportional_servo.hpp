@@ -10,7 +10,17 @@ namespace gearlash::drive {
 
 /// τ = K (r − θ), with θ from the sensor's shaft. Precondition: sound, both inertias and the
 /// backlash positive.
-ReducedDrive drive_of(const Drivetrain& drivetrain);
+template <class Number>
+ReducedDriveOf<Number> drive_of(const DrivetrainOf<Number>& drivetrain) {
+  ReducedDriveOf<Number> drive;
+  drive.motor = {drivetrain.motor_inertia, {.viscous = drivetrain.motor_friction}};
+  drive.load = {drivetrain.load_inertia, {.viscous = drivetrain.load_friction}};
+  drive.backlash = drivetrain.backlash;
+  drive.contact = RigidContactOf<Number>{drivetrain.restitution};
+  drive.sensing.load_share_of_position = drivetrain.sensor == ShaftName::load ? 1.0 : 0.0;
+  drive.controller = ProportionalDerivativeOf<Number>{.proportional = drivetrain.stiffness};
+  return drive;
+}
 
 /// The servo of the closed form that is equivalent to a drive: proportional control of the load's
 /// position, continuous, read exactly and without limit, rigid faces, no dry friction, a constant

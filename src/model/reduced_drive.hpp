@@ -11,10 +11,12 @@ namespace gearlash {
 
 /// How much of the controller's output arrives at the load: torque there per unit of output, and
 /// the friction that the motor's winding adds (back-EMF, or the slope of its speed-torque curve).
-struct ReferredOutput {
-  double torque = 1.0;    ///< N m per V, or per N m at the motor's shaft
-  double friction = 0.0;  ///< N m s/rad
+template <class Number>
+struct ReferredOutputOf {
+  Number torque = 1.0;    ///< N m per V, or per N m at the motor's shaft
+  Number friction = 0.0;  ///< N m s/rad
 };
+using ReferredOutput = ReferredOutputOf<double>;
 
 /// The torque per current of the motor's armature, N m/A, if it is known.
 std::optional<double> torque_constant_of(const Motor& motor);

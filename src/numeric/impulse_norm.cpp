@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/number.hpp"
 #include "numeric/decaying_motion.hpp"
 
 namespace gearlash {
@@ -404,7 +405,7 @@ Interval DecayingMotion::impulse_norm(const IntervalVector& input,
 
 std::vector<Interval> DecayingMotion::impulse_norms(
     const IntervalVector& input, const std::vector<IntervalVector>& outputs) const {
-  const auto is_nothing = [](const Interval& number) { return is_zero(number); };
+  const auto is_nothing = [](const Interval& number) { return is_exactly(number, 0.0); };
   if (std::all_of(input.begin(), input.end(), is_nothing)) {
     return std::vector<Interval>(outputs.size(), Interval(0.0));
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number.hpp"
+
 namespace gearlash {
 namespace {
 
@@ -56,8 +58,9 @@ IntervalPolynomial real_part(const IntervalPolynomial& polynomial) {
 }
 
 bool is_positive(IntervalPolynomial polynomial) {
-  while (!polynomial.empty() && is_zero(polynomial.back())) polynomial.pop_back();
-  const auto first = std::find_if_not(polynomial.begin(), polynomial.end(), is_zero);
+  const auto is_nothing = [](const Interval& number) { return is_exactly(number, 0.0); };
+  while (!polynomial.empty() && is_nothing(polynomial.back())) polynomial.pop_back();
+  const auto first = std::find_if_not(polynomial.begin(), polynomial.end(), is_nothing);
   polynomial.erase(polynomial.begin(), first);
   if (polynomial.empty()) return false;
   // Both ends alike.

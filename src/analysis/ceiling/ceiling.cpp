@@ -12,7 +12,7 @@
 #include "analysis/ceiling/gap_speed.hpp"
 #include "analysis/ceiling/loop_gain.hpp"
 #include "base/arithmetic.hpp"
-#include "base/datum.hpp"
+#include "base/number.hpp"
 
 namespace gearlash {
 namespace {
@@ -48,22 +48,18 @@ std::vector<Source> sources_of(const EnclosedDrive& drive) {
   const auto add = [&](std::string_view name, Disturbance disturbance, const Interval& size) {
     if (size.high > 0.0) sources.push_back({name, std::move(disturbance), size});
   };
-  add("gap", {LinearInput::gap},
-      0.5 * drive.number([](const ReducedDrive& d) { return d.backlash; }));
-  add("motor friction", {LinearInput::torque_on_motor},
-      drive.number([](const ReducedDrive& d) { return d.motor.friction.breakaway; }));
-  add("load friction", {LinearInput::torque_on_load},
-      drive.number([](const ReducedDrive& d) { return d.load.friction.breakaway; }));
-  const Interval of_position =
-      0.5 * drive.number([](const ReducedDrive& d) { return d.sensing.resolution; });
-  const Interval of_speed =
-      0.5 * drive.number([](const ReducedDrive& d) { return d.sensing.resolution_of_speed; });
+  const drive::ReducedDriveOf<Interval>& numbers = drive.numbers();
+  add("gap", {LinearInput::gap}, 0.5 * numbers.backlash);
+  add("motor friction", {LinearInput::torque_on_motor}, numbers.motor.friction.breakaway);
+  add("load friction", {LinearInput::torque_on_load}, numbers.load.friction.breakaway);
+  const drive::SensingOf<Interval>& sensing = numbers.sensing;
+  const Interval of_position = 0.5 * sensing.resolution;
+  const Interval of_speed = 0.5 * sensing.resolution_of_speed;
   const bool counts = form.sampling && form.sampling->speed_by_differences;
   // Else as of two encoders, whose gains add up to no less.
-  const bool is_one_encoder = !drive.any_of([](const ReducedDrive& d) {
-    return d.sensing.load_share_of_position != d.sensing.load_share_of_speed ||
-           d.sensing.resolution != d.sensing.resolution_of_speed;
-  });
+  const bool is_one_encoder = sensing.load_share_of_position == sensing.load_share_of_speed &&
+                              sensing.resolution.low == sensing.resolution_of_speed.low &&
+                              sensing.resolution.high == sensing.resolution_of_speed.high;
   if (counts && is_one_encoder) {
     add("encoder", {LinearInput::position_reading, LinearInput::speed_reading}, of_position);
   } else {
@@ -72,18 +68,14 @@ std::vector<Source> sources_of(const EnclosedDrive& drive) {
   }
   // What it changes the error by is an error of the position.
   add(form.error_shape.inner_gain == 0.0 ? "dead band" : "backlash compensation",
-      {LinearInput::position_reading},
-      drive.number([](const ReducedDrive& d) { return d.error_shape.largest_change(); }));
+      {LinearInput::position_reading}, numbers.error_shape.largest_change());
   if (!std::holds_alternative<double>(form.reference)) {
-    add(friction_compensation, {LinearInput::torque_on_motor},
-        abs(drive.number([](const ReducedDrive& d) { return d.feedforward.torque; })));
+    add(friction_compensation, {LinearInput::torque_on_motor}, abs(numbers.feedforward.torque));
     add("backlash compensation", {LinearInput::position_reading},
-        abs(drive.number([](const ReducedDrive& d) { return d.feedforward.half_gap; })));
+        abs(numbers.feedforward.half_gap));
   }
   if (std::holds_alternative<drive::Sine>(form.load_torque)) {
-    add("load torque", {LinearInput::torque_on_load}, abs(drive.number([](const ReducedDrive& d) {
-          return std::get<drive::Sine>(d.load_torque).amplitude;
-        })));
+    add("load torque", {LinearInput::torque_on_load}, abs(drive.course().load_torque_amplitude));
   }
   return sources;
 }
@@ -103,7 +95,7 @@ std::string obstacle_of_carried(const ReducedDrive& form, const LinearDrive<Inte
   const bool has_ramp = std::holds_alternative<drive::Ramp>(form.reference);
   const bool is_at_rest = std::holds_alternative<double>(form.reference);
   if (std::holds_alternative<drive::Ramp>(form.load_torque) || !(is_at_rest || has_ramp) ||
-      (has_ramp && !is_zero(linear.weight))) {
+      (has_ramp && !is_exactly(linear.weight, 0.0))) {
     return "the reference or the load torque moves";
   }
   if (!has_ramp || linear.knows_error_alone()) return {};
@@ -112,15 +104,12 @@ std::string obstacle_of_carried(const ReducedDrive& form, const LinearDrive<Inte
 }
 
 /// Of rest, or of an even motion along a ramp. Precondition: no obstacle.
-Carried carried_by(const EnclosedDrive& drive, const LinearDrive<Interval>& linear,
+Carried carried_by(const CourseOf<Interval>& course, const LinearDrive<Interval>& linear,
                    DisturbedLoop& loop) {
-  const ReducedDrive& form = drive.form();
-  const Interval load_torque =
-      drive.number([](const ReducedDrive& d) { return drive::middle_of(d.load_torque); });
-  if (!is_zero(linear.weight)) {
+  const Interval& load_torque = course.load_torque;
+  if (!is_exactly(linear.weight, 0.0)) {
     // What is constant displaces the loop by no more than anything of that size.
-    const Interval reference =
-        abs(drive.number([](const ReducedDrive& d) { return std::get<double>(d.reference); }));
+    const Interval reference = abs(course.reference);
     const LoopGain of_torque = loop.gain({LinearInput::torque_on_load});
     const LoopGain of_reference = loop.gain({LinearInput::reference});
     const auto displaced = [&](double LoopGain::*output) {
@@ -131,11 +120,7 @@ Carried carried_by(const EnclosedDrive& drive, const LinearDrive<Interval>& line
     return Carried{displaced(&LoopGain::effort),
                    abs(load_torque) + abs(linear.weight) * displaced(&LoopGain::load)};
   }
-  Interval speed = 0.0;
-  if (std::holds_alternative<drive::Ramp>(form.reference)) {
-    speed =
-        drive.number([](const ReducedDrive& d) { return std::get<drive::Ramp>(d.reference).rate; });
-  }
+  const Interval& speed = course.reference_rate;
   Interval friction = linear.motor_friction + linear.load_friction;
   if (linear.lags) friction = friction + linear.back_emf;
   return Carried{friction * speed - load_torque, linear.load_friction * speed - load_torque};
@@ -147,18 +132,16 @@ Carried carried_by(const EnclosedDrive& drive, const LinearDrive<Interval>& line
 std::optional<GapMotion> gap_motion(const EnclosedDrive& drive, const LinearDrive<Interval>& linear,
                                     DisturbedLoop& loop, const std::vector<ScaledSource>& sources,
                                     const std::optional<Carried>& carried) {
-  using drive::RigidContact;
-  if (!carried || !std::holds_alternative<RigidContact>(drive.form().contact)) return std::nullopt;
+  const auto* faces = std::get_if<drive::RigidContactOf<Interval>>(&drive.numbers().contact);
+  if (!carried || faces == nullptr) return std::nullopt;
   // Once the faces part the mesh torque is gone.
   Interval acceleration =
       abs(carried->mesh) * (1.0 / linear.motor_inertia + 1.0 / linear.load_inertia);
   for (const ScaledSource& one : sources) {
     acceleration = acceleration + one.source.size * Interval(one.gain.gap_acceleration);
   }
-  return GapMotion{.backlash = drive.number([](const ReducedDrive& d) { return d.backlash; }),
-                   .restitution = drive.number([](const ReducedDrive& d) {
-                     return std::get<RigidContact>(d.contact).restitution;
-                   }),
+  return GapMotion{.backlash = drive.numbers().backlash,
+                   .restitution = faces->restitution,
                    .acceleration = acceleration,
                    .per_speed = loop.gain({LinearInput::gap_speed}).gap_acceleration,
                    .slope = loop.gap_acceleration_per_speed()};
@@ -252,15 +235,6 @@ std::vector<ScaledSource> scaled_sources(const EnclosedDrive& drive, DisturbedLo
   return sources;
 }
 
-/// Infinite without one.
-Interval lowest_torque_limit(const EnclosedDrive& drive) {
-  double lowest = infinity;
-  for (const ReducedDrive& end : drive.ends()) {
-    if (std::isfinite(end.torque_limit)) lowest = std::min(lowest, datum(end.torque_limit).low);
-  }
-  return lowest;
-}
-
 }  // namespace
 
 Ceiling ceiling_of(const EnclosedDrive& drive) {
@@ -281,7 +255,7 @@ Ceiling ceiling_of(const EnclosedDrive& drive) {
   const std::string of_carried = obstacle_of_carried(form, linear);
   std::optional<Carried> carried;
   if (of_carried.empty() && (ceiling.is_below_limit || loop->reads_gap_speed())) {
-    carried = carried_by(drive, linear, *loop);
+    carried = carried_by(drive.course(), linear, *loop);
   }
 
   Margin margin;
@@ -309,15 +283,14 @@ Ceiling ceiling_of(const EnclosedDrive& drive) {
   }
   if (!ceiling.effort) ceiling.effort_reason = obstacle_of_gap_speed(of_carried);
   if (!carried || !ceiling.effort || !ceiling.is_below_limit || has_current_limit) return ceiling;
-  margin.left = lowest_torque_limit(drive) - abs(carried->requested) - effort;
+  margin.left = drive.numbers().torque_limit - abs(carried->requested) - effort;
   ceiling.meets_limit = margin.left.low >= 0.0;
   if (loop->reads_gap_speed()) {
     // The line above the gap's speed replaces its term.
     margin.left = margin.left + Interval(*ceiling.terms.back().effort);
   }
   if (!*ceiling.meets_limit) return ceiling;
-  ceiling.safe_starts = starts_within(
-      margin, *loop, 0.5 * drive.number([](const ReducedDrive& d) { return d.backlash; }));
+  ceiling.safe_starts = starts_within(margin, *loop, 0.5 * drive.numbers().backlash);
   return ceiling;
 }
 

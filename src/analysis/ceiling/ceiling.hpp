@@ -2,13 +2,11 @@
 #pragma once
 
 #include "gearlash/answer.hpp"
-#include "model/enclosed.hpp"
+#include "model/enclosed_drive.hpp"
 
 namespace gearlash {
 
-/// Proved, with outward rounding, of every drive whose numbers are enclosed: of a single drive
-/// those that agree to 64 units in the last place. Precondition: sound drives with settled signals,
-/// of one form: see enclosed_drive().
+/// Proved, with outward rounding, of every drive that is enclosed.
 Ceiling ceiling_of(const EnclosedDrive& drive);
 
 }  // namespace gearlash

@@ -31,7 +31,9 @@ class ContinuousLoop : public DisturbedLoop {
             .of_gap = peak(loop_.start_of_gap, output)};
   }
 
-  bool reads_gap_speed() const override { return !is_zero(loop_.effort[LinearInput::gap_speed]); }
+  bool reads_gap_speed() const override {
+    return !is_exactly(loop_.effort[LinearInput::gap_speed], 0.0);
+  }
   Interval gap_acceleration_per_speed() const override {
     return (*loop_.gap_acceleration)[LinearInput::gap_speed];
   }

@@ -86,11 +86,11 @@ std::string obstacle(const Drive& drive, const BoxSide& side) {
   return {};
 }
 
-bool have_one_form(const ReducedDrive& one, const ReducedDrive& other) {
-  const auto order = [](const ReducedDrive& drive) {
-    return drive::linear_controller(drive.controller).order();
-  };
-  return one.contact.index() == other.contact.index() && order(one) == order(other) &&
+bool have_one_form(const EnclosedDrive& enclosed, const EnclosedDrive& widened) {
+  const ReducedDrive& one = enclosed.form();
+  const ReducedDrive& other = widened.form();
+  return one.contact.index() == other.contact.index() &&
+         enclosed.controller().order() == widened.controller().order() &&
          drive::is_joined(one) == drive::is_joined(other) &&
          (one.winding.time_constant > 0.0) == (other.winding.time_constant > 0.0) &&
          std::isfinite(one.torque_limit) == std::isfinite(other.torque_limit) &&
@@ -319,15 +319,15 @@ std::variant<EnclosedDrive, std::string> enclosed_drive(const Drive& drive,
       set_on({.path = side.path}, corners[i], i < count ? side.values.low : side.values.high);
     }
   }
-  std::vector<ReducedDrive> ends;
+  std::optional<EnclosedDrive> all;
   for (const Drive& at_corner : corners) {
     if (!faults(at_corner).empty()) return std::string("some drives of the box are unsound");
-    ends.push_back(reduce_settled(at_corner));
-    if (!have_one_form(ends.front(), ends.back())) {
-      return std::string("the loop changes its form within the box");
-    }
+    const EnclosedDrive one(at_corner);
+    if (!all) all = one;
+    if (!have_one_form(*all, one)) return std::string("the loop changes its form within the box");
+    all->widen_to(one);
   }
-  return EnclosedDrive(std::move(ends));
+  return *std::move(all);
 }
 
 EnclosedCeiling enclosed_ceiling(const Drive& drive, std::span<const BoxSide> box,

@@ -12,7 +12,7 @@
 #include "gearlash/drive.hpp"
 #include "gearlash/progress.hpp"
 #include "gearlash/quantity.hpp"
-#include "model/enclosed.hpp"
+#include "model/enclosed_drive.hpp"
 
 namespace gearlash {
 
@@ -26,7 +26,7 @@ struct BoxSide {
 ///
 /// Every number of a ReducedDrive, and of its controller as a linear one, is a monotone function of
 /// each single parameter that is taken here, the others being fixed: a power, a share or a sum of
-/// such terms (model/reduced_drive.cpp, model/controller.cpp). So its extremes over a box are at
+/// such terms (model/reduction.hpp, model/controller_forms.hpp). So its extremes over a box are at
 /// corners. Not taken: what is no number, what changes the form of the loop where it becomes 0, the
 /// times and the sampling of a computer and a filter in it, coefficients of transfer functions and
 /// matrices, registers, signals, dead bands and compensations.

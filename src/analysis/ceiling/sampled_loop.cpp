@@ -55,7 +55,8 @@ class SampledLoop : public DisturbedLoop {
   LoopGain gain(const Disturbance& disturbance) override;
   StartGain start_gain(StartOutput output) override;
   bool reads_gap_speed() const override {
-    return drive_.uses_speed() && !drive_.counts && !is_zero(plant_.speed[LinearInput::gap_speed]);
+    return drive_.uses_speed() && !drive_.counts &&
+           !is_exactly(plant_.speed[LinearInput::gap_speed], 0.0);
   }
   Interval gap_acceleration_per_speed() const override {
     return (*plant_.gap_acceleration)[LinearInput::gap_speed];
@@ -68,7 +69,8 @@ class SampledLoop : public DisturbedLoop {
   Form sensed_speed() const;
   Form combination(const IntervalVector& row, const std::vector<Form>& states) const;
   void plan(int parts);
-  void pass(const Hold<Interval>& hold, const Form& torque, int parts, std::vector<Form>& states);
+  void pass(const HeldTorqueOf<Interval>& hold, const Form& torque, int parts,
+            std::vector<Form>& states);
   IntervalMatrix changes() const;
 
   Entry entry(const Disturbance& disturbance) const;
@@ -125,7 +127,7 @@ bool SampledLoop::prove() {
 Form SampledLoop::combination(const IntervalVector& row, const std::vector<Form>& states) const {
   Form form = nothing();
   for (std::size_t i = 0; i < row.size(); ++i) {
-    if (!is_zero(row[i])) form = std::move(form) + row[i] * states[i];
+    if (!is_exactly(row[i], 0.0)) form = std::move(form) + row[i] * states[i];
   }
   return form;
 }
@@ -146,7 +148,7 @@ Form SampledLoop::sensed_speed() const {
 }
 
 /// The plant over a time with one torque, as segments of equal length.
-void SampledLoop::pass(const Hold<Interval>& hold, const Form& torque, int parts,
+void SampledLoop::pass(const HeldTorqueOf<Interval>& hold, const Form& torque, int parts,
                        std::vector<Form>& states) {
   const Interval length =
       not_negative(hold.until - hold.from) / Interval(static_cast<double>(parts));
@@ -186,7 +188,7 @@ void SampledLoop::plan(int parts) {
   asked_ = worked_out(drive_.torque);
   std::vector<Form> states;
   for (std::size_t i = 0; i < plant_.size(); ++i) states.push_back(state(i));
-  for (const Hold<Interval>& hold : drive_.holds) {
+  for (const HeldTorqueOf<Interval>& hold : drive_.holds) {
     pass(hold, hold.age == 0 ? asked_ : state(queue_ + hold.age - 1), parts, states);
   }
 
@@ -215,7 +217,7 @@ IntervalMatrix SampledLoop::changes() const {
 
 Entry SampledLoop::entry(const Disturbance& disturbance) const {
   Entry entry{.disturbance = disturbance, .acting = at_once(plant_.slopes, disturbance)};
-  const auto is_nothing = [](const Interval& number) { return is_zero(number); };
+  const auto is_nothing = [](const Interval& number) { return is_exactly(number, 0.0); };
   if (std::all_of(entry.acting.begin(), entry.acting.end(), is_nothing)) entry.acting.clear();
   return entry;
 }
@@ -305,7 +307,7 @@ SampledLoop::Track SampledLoop::track(const Form& output, const Entry& entry) co
     track.since_tick.push_back(since_tick);
     track.bends_since_tick.push_back(bend);
     since_tick = since_tick + segment.length * slope;
-    if (is_zero(of_torque) || segment.ends.empty()) continue;
+    if (is_exactly(of_torque, 0.0) || segment.ends.empty()) continue;
     ends.push_back(combination(output.of_state, segment.ends) + of_torque * segment.torque);
     since_tick_at_ends.push_back(since_tick);
   }

@@ -158,7 +158,7 @@ class Units {
     Answer answer;
     Wanted wanted;
     ask_for(Quantity::settling_time, task_.series.nominal, wanted);
-    add_figures(reduce_settled(drive(unit, tuned)), wanted, answer, progress);
+    add_figures(drive(unit, tuned), wanted, answer, progress);
     return answer.value(Quantity::settling_time).value_or(not_a_number);
   }
 

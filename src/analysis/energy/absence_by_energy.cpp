@@ -36,7 +36,7 @@ bool is_absent_by_energy(const EnclosedDrive& enclosed) {
   const LoopPolynomials loop = loop_polynomials(linear);
   if (!is_stable(loop.closed)) return false;
   const Polynomial s{0.0, 1.0};
-  const bool is_weighed = !is_zero(linear.weight);
+  const bool is_weighed = !is_exactly(linear.weight, 0.0);
   // The mesh torque over the gap's speed has a pole at 0, whose residue must not be negative.
   const Interval residue = linear.weight * (1.0 - linear.position_share) * loop.position[0];
   if (is_weighed && residue.low < 0.0) return false;
@@ -47,7 +47,8 @@ bool is_absent_by_energy(const EnclosedDrive& enclosed) {
                : has_positive_real_part(product(loop.load_momentum, loop.motor), loop.closed);
   }
   // Ports of motor and load are apart only where nothing is measured on the load.
-  const bool measures_load = !is_zero(linear.position_share) || !is_zero(linear.speed_share);
+  const bool measures_load =
+      !is_exactly(linear.position_share, 0.0) || !is_exactly(linear.speed_share, 0.0);
   return !measures_load && linear.load_friction.low > 0.0 && linear.weight.low >= 0.0 &&
          has_positive_real_part(loop.motor, product(s, loop.denominator));
 }

@@ -1,7 +1,7 @@
 // A proof by energy that a drive cannot hunt, whatever its contact.
 #pragma once
 
-#include "model/enclosed.hpp"
+#include "model/enclosed_drive.hpp"
 
 namespace gearlash {
 

@@ -95,17 +95,13 @@ bool is_covered(const ReducedDrive& drive) {
 
 /// N₀ = k_g y₀ − w, with closed(0) y₀ = denominator(0) w + at_reference(0) r. Precondition: the
 /// loop is stable.
-Interval torque_at_rest(const EnclosedDrive& drive, const LinearDrive<Interval>& linear,
+Interval torque_at_rest(const CourseOf<Interval>& course, const Interval& weight,
                         const LoopPolynomials& loop) {
-  const Interval load_torque =
-      drive.number([](const ReducedDrive& d) { return std::get<double>(d.load_torque); });
-  if (is_zero(linear.weight)) return -load_torque;
-  const Interval reference =
-      drive.number([](const ReducedDrive& d) { return std::get<double>(d.reference); });
-  const Interval position =
-      (loop.denominator.front() * load_torque + loop.at_reference.front() * reference) /
-      loop.closed.front();
-  return linear.weight * position - load_torque;
+  if (is_exactly(weight, 0.0)) return -course.load_torque;
+  const Interval position = (loop.denominator.front() * course.load_torque +
+                             loop.at_reference.front() * course.reference) /
+                            loop.closed.front();
+  return weight * position - course.load_torque;
 }
 
 }  // namespace
@@ -133,8 +129,8 @@ std::optional<double> highest_mean_mesh_torque(const EnclosedDrive& drive) {
     constexpr double slack = 1e-3;
     const Interval bound = (1.0 + slack) * Interval(seen);
     if (is_above(bound, numerator, loop.closed, lambda)) {
-      const Interval backlash = drive.number([](const ReducedDrive& d) { return d.backlash; });
-      return (abs(torque_at_rest(drive, linear, loop)) + 0.5 * backlash * bound).high;
+      const Interval at_rest = torque_at_rest(drive.course(), linear.weight, loop);
+      return (abs(at_rest) + 0.5 * drive.numbers().backlash * bound).high;
     }
   }
   return std::nullopt;

@@ -4,15 +4,14 @@
 #include <optional>
 #include <string>
 
-#include "model/enclosed.hpp"
+#include "model/enclosed_drive.hpp"
 
 namespace gearlash {
 
 /// N m at the load's shaft: the mean of the mesh torque's size over any motion, in the end, is at
 /// most this (docs/explanation/absence-by-energy.md, "The mesh torque"). Proved of every drive
-/// whose numbers agree with the given ones to 64 units in the last place. Rigid faces, a continuous
-/// controller, constant reference and load torque. Empty for other drives, with dry friction or an
-/// encoder, and where no bound is found.
+/// that is enclosed. Rigid faces, a continuous controller, constant reference and load torque.
+/// Empty for other drives, with dry friction or an encoder, and where no bound is found.
 std::optional<double> highest_mean_mesh_torque(const EnclosedDrive& drive);
 
 }  // namespace gearlash

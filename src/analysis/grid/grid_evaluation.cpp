@@ -35,7 +35,7 @@ class FigureColumns {
 
   void write(std::size_t row, const Drive& drive, Progress& progress) const {
     Answer answer;
-    if (faults(drive).empty()) add_figures(reduce_settled(drive), wanted_, answer, progress);
+    if (faults(drive).empty()) add_figures(drive, wanted_, answer, progress);
     for (const Quantity quantity : quantities_) {
       columns_[quantity][row] = answer.value(quantity).value_or(not_a_number);
     }
