@@ -23,9 +23,14 @@ struct Unit {
   double factor = 1.0;  ///< the unit in SI
   UnitPowers powers;
   bool counts_minutes = false;  ///< written with min, h, …
+  int roundings = 0;            ///< the factor's error is at most this, in 2⁻⁵³ of it
 
   Unit& multiply(const Unit& other, int power);
 };
+
+/// A unit with more is refused: a value read is within AsWritten (base/number.hpp) of the one
+/// written.
+inline constexpr int most_roundings = 50;
 
 /// The units that one word stands for, prefixes included: one ("mN", "kΩ", "ozf"), or several that
 /// data sheets run together ("mNm", "gcm"). A power applies to the last of several ("gcm2"). Empty

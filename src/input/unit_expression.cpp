@@ -116,6 +116,7 @@ class UnitReader {
     rest_.remove_prefix(length);
     Unit result;
     result.factor = *value;
+    result.roundings = 1;
     return result;
   }
 
@@ -196,7 +197,10 @@ Unit read_unit(std::string_view text) {
     throw NotAUnit("a unit takes at most " + std::to_string(longest_unit) + " bytes");
   }
   const std::string ascii = in_ascii_signs(text);
-  return UnitReader(ascii).whole();
+  const Unit unit = UnitReader(ascii).whole();
+  if (unit.roundings > most_roundings)
+    throw NotAUnit("its factor has too many products to be exact");
+  return unit;
 }
 
 std::size_t number_length(std::string_view text) {

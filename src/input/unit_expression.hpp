@@ -21,7 +21,8 @@ class NotAUnit : public std::runtime_error {
 ///   exponent := "2" | "-2" | "^2" | "^-2" | "**2" | "²" | "⁻²"     (−9 … 9)
 ///
 /// read from left to right: a/b c is (a/b) c. UDUNITS-2's own grammar is not used, because it takes
-/// numbers, logarithms, offsets and dates within a unit. Throws NotAUnit.
+/// numbers, logarithms, offsets and dates within a unit. Throws NotAUnit, also for a unit of more
+/// than most_roundings.
 Unit read_unit(std::string_view text);
 
 /// The length of the decimal number that `text` begins with: [+-] digits [. digits] [e [+-] digits]

@@ -28,7 +28,8 @@ struct Measured {
 /// the radian then requires time in seconds, because "V min" could be per rad/min or per rpm.
 ///
 /// Throws InvalidInput with one fault, of `field`, for text that is not a number and a unit, for an
-/// unknown unit or another dimension, and for a value that no double represents.
+/// unknown unit or another dimension, for one of so many factors that it loses digits, and for a
+/// value that no double represents.
 Measured read_quantity(std::string_view field, std::string_view text, const Dimension& expected);
 
 /// read_quantity(…).si
