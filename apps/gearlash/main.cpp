@@ -13,7 +13,6 @@
 #include "command.hpp"
 #include "gearlash/version.hpp"
 #include "machine_faults.hpp"
-#include "output/netcdf_file.hpp"
 #include "output/output_file.hpp"
 
 namespace gearlash::cli {
@@ -117,7 +116,5 @@ ExitStatus guarded(int argument_count, char** arguments) {
 int main(int argument_count, char** arguments) {
   std::set_terminate(gearlash::cli::end_without_memory);
   gearlash::cli::install_signal_handlers();
-  const auto status = static_cast<int>(gearlash::cli::guarded(argument_count, arguments));
-  if (gearlash::must_end_at_once()) std::_Exit(status);
-  return status;
+  return static_cast<int>(gearlash::cli::guarded(argument_count, arguments));
 }

@@ -80,8 +80,6 @@ GridCount run_sweep(const SweepFile& sweep, const Provenance& provenance,
   if (is_new) part.write_record(contents, recorded);
   GridNetcdf file = is_new ? GridNetcdf::create(part.data(), part.shown_output(), contents)
                            : reopened(part, contents, recorded);
-  // Only this thread writes, because HDF5 prints its errors in every thread except the one in which
-  // NetCDF was started.
   const GridCount count = evaluate_in_pieces(
       sweep.grid, sweep.quantities, recorded.count.points(), longest_piece,
       [&](const GridPiece& piece) {

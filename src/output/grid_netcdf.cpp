@@ -1,181 +1,150 @@
 #include "output/grid_netcdf.hpp"
 
 #include <algorithm>
-#include <array>
-#include <limits>
-#include <string>
 #include <utility>
-#include <vector>
-
-#include "analysis/grid/hunting_boundary.hpp"
 
 namespace gearlash {
 namespace {
 
-constexpr char verdict_name[] = "verdict";
+enum class GridTask : std::size_t { write, read, write_boundary, flush, close };
 
-/// Consecutive points as a box: its start and extent on each axis.
-struct GridBox {
-  std::vector<std::size_t> start;
-  std::vector<std::size_t> extent;
+struct GridRequest {
+  GridTask task{};
+  std::size_t first = 0;  ///< of the points to write or read
+  std::size_t count = 0;  ///< of these points, or of curves
 };
 
-GridBox box_of(const Grid& grid, std::size_t first, std::size_t count) {
-  GridBox box{std::vector<std::size_t>(grid.axes.size(), 0),
-              std::vector<std::size_t>(grid.axes.size(), 1)};
-  for (std::size_t i = grid.axes.size(); i-- > 0;) {
-    const std::size_t values = grid.axes[i].values.size();
-    box.start[i] = first % values;
-    box.extent[i] = std::min(count, values);
-    first /= values;
-    count = (count + values - 1) / values;
-  }
-  return box;
+/// In the child: serves the requests of a GridNetcdf.
+class GridServer {
+ public:
+  GridServer(GridNetcdfFile file, const std::vector<Quantity>& quantities)
+      : file_(std::move(file)), quantities_(quantities) {}
+
+  void serve(Connection& parent);
+
+ private:
+  void write(const GridRequest& asked, Connection& parent);
+  void read_and_send(const GridRequest& asked, Connection& parent);
+  void make_room(std::size_t rows);
+
+  GridNetcdfFile file_;
+  std::vector<Quantity> quantities_;
+  Table box_;  ///< kept, because new memory costs as much as writing
+};
+
+void GridServer::make_room(std::size_t rows) {
+  if (box_.rows() != rows) box_ = Table(rows, quantities_);
 }
 
-/// The coordinates by axis: y, x.
-std::array<std::vector<double>, 2> columns_of(const std::vector<MapCurve>& curves) {
-  constexpr double gap = std::numeric_limits<double>::quiet_NaN();
-  std::array<std::vector<double>, 2> columns;
-  for (const MapCurve& curve : curves) {
-    if (&curve != &curves.front()) {
-      for (std::vector<double>& column : columns) column.push_back(gap);
-    }
-    for (const MapPoint& point : curve) {
-      columns[0].push_back(point.y);
-      columns[1].push_back(point.x);
-    }
-  }
-  return columns;
+void GridServer::write(const GridRequest& asked, Connection& parent) {
+  make_room(asked.count);
+  parent.receive_all(box_.column_of_verdicts());
+  for (const Quantity quantity : quantities_) parent.receive_all(box_.column(quantity));
+  file_.write({asked.first, box_, {}});
 }
 
-std::string boundary_name(const Axis& axis) { return "hunting_boundary_" + column_name(axis.path); }
+void GridServer::read_and_send(const GridRequest& asked, Connection& parent) {
+  make_room(asked.count);
+  file_.read(asked.first, box_);
+  report_done(parent);
+  parent.send_all(box_.verdicts());
+  for (const Quantity quantity : quantities_) parent.send_all(box_[quantity]);
+}
+
+std::vector<MapCurve> receive_curves(std::size_t count, Connection& parent) {
+  std::vector<MapCurve> curves(count);
+  for (MapCurve& curve : curves) {
+    curve.resize(parent.receive_one<std::size_t>());
+    parent.receive_all(std::span(curve));
+  }
+  return curves;
+}
+
+void GridServer::serve(Connection& parent) {
+  const auto asked = parent.receive_one<GridRequest>();
+  switch (asked.task) {
+    case GridTask::write:
+      write(asked, parent);
+      break;
+    case GridTask::read:
+      return read_and_send(asked, parent);
+    case GridTask::write_boundary:
+      file_.write_boundary(receive_curves(asked.count, parent));
+      break;
+    case GridTask::flush:
+      file_.flush();
+      break;
+    case GridTask::close:
+      file_.close();
+      break;
+  }
+  report_done(parent);
+}
 
 }  // namespace
 
-void GridNetcdf::describe(const GridContents& contents) {
-  for (const auto& [name, text] : attributes_of_file(contents)) {
-    file_.set_attribute_of_file(name, text);
-  }
-  const std::vector<NetcdfDimension> dimensions = describe_axes(file_, grid_);
-  const std::string fixed = describe_fixed_numbers(file_, grid_);
-  const NetcdfVariable verdict =
-      file_.add_flags(verdict_name, dimensions, "verdict on the drive", verdict_words());
-  if (!fixed.empty()) file_.set_attribute(verdict, "coordinates", fixed);
-  for (const Quantity quantity : quantities_) {
-    const QuantityInfo& info = info_of(quantity);
-    const NetcdfVariable variable = file_.add_numbers(
-        std::string(info.name), dimensions, std::string(info.meaning), std::string(info.unit));
-    file_.declare_nan_missing(variable);
-    if (!fixed.empty()) file_.set_attribute(variable, "coordinates", fixed);
-  }
-  file_.end_description();
-  write_parameters(file_, grid_);
-  claim_places();
-}
-
-void GridNetcdf::find_variables() {
-  verdict_ = file_.variable(verdict_name);
-  for (const Quantity quantity : quantities_) {
-    variables_.push_back(file_.variable(std::string(name_of(quantity))));
-  }
-}
-
-bool GridNetcdf::describes(const GridContents& contents) const {
-  for (const auto& [name, text] : attributes_of_file(contents)) {
-    const bool is_free = name == "history";  // the command may spell its file names differently
-    if (!is_free && file_.attribute_of_file(name) != text) return false;
-  }
-  return std::all_of(grid_.axes.begin(), grid_.axes.end(), [&](const Axis& axis) {
-    std::vector<double> values(axis.values.size());
-    file_.read(file_.variable(column_name(axis.path)), {0}, {values.size()}, values);
-    return values == axis.values;
-  });
-}
-
-/// Writes one value of each variable. The library then allocates the whole variable, and later
-/// writes do not change the file's structure, so that the file stays readable if the program is
-/// killed.
-void GridNetcdf::claim_places() {
-  find_variables();
-  const std::vector<std::size_t> one(grid_.axes.size(), 1);
-  const std::vector<std::size_t> origin(grid_.axes.size(), 0);
-  const signed char flag = 0;
-  const double number = 0.0;
-  file_.write(verdict_, origin, one, std::span(&flag, 1));
-  for (const NetcdfVariable variable : variables_) {
-    file_.write(variable, origin, one, std::span(&number, 1));
-  }
-}
-
-/// Keeps the disk busy while the next points are computed. The interval is long enough to write
-/// long stretches of each variable.
-void GridNetcdf::begin_flush_now_and_then(const GridPiece& piece) {
-  constexpr std::size_t often_enough = std::size_t{1} << 18U;
-  const std::size_t written = piece.first + piece.table.rows();
-  if (written - flushed_ < often_enough && written < grid_.size()) return;
-  file_.begin_flush();
-  flushed_ = written;
-}
+GridNetcdf::GridNetcdf(const std::string& shown_name, const GridContents& contents,
+                       const Open& open)
+    : grid_(contents.grid),
+      quantities_(contents.quantities),
+      process_(std::make_unique<WritingProcess>(shown_name, [&]() -> Server {
+        const auto server = std::make_shared<GridServer>(open(), quantities_);
+        return [server](Connection& parent) { server->serve(parent); };
+      })) {}
 
 GridNetcdf GridNetcdf::create(const std::filesystem::path& path, const std::string& shown_name,
                               const GridContents& contents) {
-  GridNetcdf grid(NetcdfFile::create(path, shown_name), contents);
-  grid.describe(contents);
-  return grid;
+  return {shown_name, contents, [&] { return GridNetcdfFile::create(path, shown_name, contents); }};
 }
 
 GridNetcdf GridNetcdf::reopen(const std::filesystem::path& path, const std::string& shown_name,
                               const GridContents& contents) {
-  GridNetcdf grid(NetcdfFile::reopen(path, shown_name), contents);
-  grid.find_variables();
-  if (!grid.describes(contents)) {
-    throw OutputError(shown_name + ": describes another grid than the one to go on with");
-  }
-  return grid;
-}
-
-void GridNetcdf::read(std::size_t first, Table& table) const {
-  const GridBox box = box_of(grid_, first, table.rows());
-  std::vector<signed char> flags(table.rows());
-  file_.read(verdict_, box.start, box.extent, flags);
-  std::transform(flags.begin(), flags.end(), table.column_of_verdicts().begin(),
-                 [](signed char flag) { return static_cast<Verdict>(flag); });
-  for (std::size_t i = 0; i < quantities_.size(); ++i) {
-    file_.read(variables_[i], box.start, box.extent, table.column(quantities_[i]));
-  }
+  return {shown_name, contents, [&] { return GridNetcdfFile::reopen(path, shown_name, contents); }};
 }
 
 void GridNetcdf::write(const GridPiece& piece) {
+  constexpr std::size_t most_points = std::size_t{1} << 15U;  // 3 MB
   const Table& table = piece.table;
-  const GridBox box = box_of(grid_, piece.first, table.rows());
-  flags_.resize(table.rows());
-  std::transform(table.verdicts().begin(), table.verdicts().end(), flags_.begin(),
-                 [](Verdict verdict) { return static_cast<signed char>(verdict); });
-  file_.write(verdict_, box.start, box.extent, flags_);
-  for (std::size_t i = 0; i < quantities_.size(); ++i) {
-    file_.write(variables_[i], box.start, box.extent, table[quantities_[i]]);
+  for (std::size_t done = 0, count = 0; done < table.rows(); done += count) {
+    const std::size_t first = piece.first + done;
+    count = box_length(grid_, first, std::min(table.rows() - done, most_points));
+    process_->ask([&](Connection& child) {
+      child.send_one(GridRequest{GridTask::write, first, count});
+      child.send_all(table.verdicts().subspan(done, count));
+      for (const Quantity quantity : quantities_) {
+        child.send_all(table[quantity].subspan(done, count));
+      }
+    });
   }
-  begin_flush_now_and_then(piece);
 }
 
-void GridNetcdf::write_boundary(const std::vector<MapCurve>& curves) {
-  if (curves.empty()) return;
-  const std::array<std::vector<double>, 2> boundary = columns_of(curves);
-  file_.resume_description();
-  const NetcdfDimension dimension =
-      file_.add_dimension("hunting_boundary_point", boundary.front().size());
-  for (const Axis& axis : grid_.axes) {
-    file_.add_numbers(boundary_name(axis), {dimension},
-                      named_parameter(axis, grid_.drive).meaning +
-                          ", where hunting ends (growth at rest 1); NaN between curves",
-                      unit_of(axis, grid_.drive));
-  }
-  file_.end_description();
-  for (std::size_t i = 0; i < boundary.size(); ++i) {
-    file_.write(file_.variable(boundary_name(grid_.axes[i])), {0}, {boundary[i].size()},
-                boundary[i]);
-  }
+void GridNetcdf::read(std::size_t first, Table& table) const {
+  process_->ask(
+      [&](Connection& child) {
+        child.send_one(GridRequest{GridTask::read, first, table.rows()});
+      },
+      [&](Connection& child) {
+        child.receive_all(table.column_of_verdicts());
+        for (const Quantity quantity : quantities_) child.receive_all(table.column(quantity));
+      });
+}
+
+void GridNetcdf::write_boundary(const std::vector<MapCurve>& boundary) {
+  process_->ask([&](Connection& child) {
+    child.send_one(GridRequest{GridTask::write_boundary, 0, boundary.size()});
+    for (const MapCurve& curve : boundary) {
+      child.send_one(curve.size());
+      child.send_all(std::span(curve));
+    }
+  });
+}
+
+void GridNetcdf::flush() {
+  process_->ask([](Connection& child) { child.send_one(GridRequest{GridTask::flush}); });
+}
+
+void GridNetcdf::close() {
+  process_->ask([](Connection& child) { child.send_one(GridRequest{GridTask::close}); });
 }
 
 std::size_t netcdf_bytes(const GridContents& contents) {

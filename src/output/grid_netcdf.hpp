@@ -2,27 +2,25 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "analysis/grid/grid_pieces.hpp"
 #include "analysis/grid/region_boundary.hpp"
 #include "output/grid_description.hpp"
-#include "output/netcdf_file.hpp"
-#include "output/output_file.hpp"
+#include "output/grid_netcdf_file.hpp"
+#include "output/writing_process.hpp"
 
 namespace gearlash {
 
-/// A file that is being written. Each axis is a dimension, named as its column (column_name()),
-/// with the axis's values or the words of its choices. Over all dimensions the file has the verdict
-/// as flags and each quantity, NaN where it is not known. It also has the drive's other numbers,
-/// the drive as TOML, and the command and version of Gearlash. Variables have a long_name and SI
-/// units as UDUNITS spells them. The boundary is a list of points with NaN between curves. The file
-/// follows the CF conventions 1.8. The same grid gives the same bytes, however the writing is
-/// divided.
+/// A GridNetcdfFile in a child process, because HDF5 (1.10.8) crashes or ends the program where
+/// some of its calls or allocations fail. A crash is an OutputError here. One thread at a time may
+/// call its members.
 ///
 /// Every member throws OutputError, naming the file as `shown_name`, if the file cannot be written.
+/// create() and reopen() also throw what WritingProcess throws.
 class GridNetcdf {
  public:
   /// Makes a file in which every value has its place and no point is written yet.
@@ -42,26 +40,17 @@ class GridNetcdf {
   /// nothing.
   void write_boundary(const std::vector<MapCurve>& boundary);
   /// Writes everything to the disk (fsync).
-  void flush() { file_.flush(); }
-  void close() { file_.close(); }
+  void flush();
+  /// Writes everything to the file.
+  void close();
 
  private:
-  GridNetcdf(NetcdfFile file, const GridContents& contents)
-      : file_(std::move(file)), grid_(contents.grid), quantities_(contents.quantities) {}
-  void describe(const GridContents& contents);
-  /// Whether the file describes the grid as describe() wrote it.
-  bool describes(const GridContents& contents) const;
-  void find_variables();
-  void claim_places();
-  void begin_flush_now_and_then(const GridPiece& piece);
+  using Open = std::function<GridNetcdfFile()>;
+  GridNetcdf(const std::string& shown_name, const GridContents& contents, const Open& open);
 
-  NetcdfFile file_;
   Grid grid_;
   std::vector<Quantity> quantities_;
-  NetcdfVariable verdict_ = 0;
-  std::vector<NetcdfVariable> variables_;  ///< of the quantities
-  std::vector<signed char> flags_;
-  std::size_t flushed_ = 0;  ///< points written before the last begin_flush()
+  std::unique_ptr<WritingProcess> process_;
 };
 
 /// The number of bytes of the values in such a file.

@@ -5,7 +5,6 @@
 #include <netcdf.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <limits>
 #include <system_error>
@@ -15,8 +14,6 @@
 
 namespace gearlash {
 namespace {
-
-std::atomic<bool> is_loaded = false;
 
 /// A function of NetCDF's library. The library is loaded at the first call, because loading it and
 /// the forty libraries that it needs takes longer than most commands. It is never unloaded, because
@@ -28,7 +25,6 @@ void* function_of_library(const char* name) {
     throw OutputError(std::string("NetCDF files cannot be written without ") +
                       GEARLASH_NETCDF_SONAME + " (Debian: " + GEARLASH_NETCDF_PACKAGE + ")");
   }
-  is_loaded = true;
   errno = 0;  // loading may have set it
   return function;
 }
@@ -214,7 +210,5 @@ void NetcdfFile::flush() {
 }
 
 void NetcdfFile::close() { require(nc_sync); }
-
-bool must_end_at_once() noexcept { return is_loaded; }
 
 }  // namespace gearlash

@@ -16,10 +16,10 @@ using NetcdfVariable = int;
 /// Every member throws OutputError, naming the file as `shown_name`, if the library reports an
 /// error (disk full, no permission, a file of another layout).
 ///
-/// The library's own file stays open: HDF5 (1.10.8) crashes as it closes a file if the last write
-/// fails, and at the end of a program in which any write has failed. So the program ends by
-/// std::_Exit if must_end_at_once(). Its close would only add the mark that the file is closed,
-/// which readers do not need.
+/// The library's own file stays open, because HDF5 (1.10.8) crashes as it closes a file if the last
+/// write fails, and at the end of a program in which any write has failed. So the program ends by
+/// _exit. The library's close would only add the mark that the file is closed, which readers do not
+/// need.
 class NetcdfFile {
  public:
   /// Makes a new file, or opens an empty one, to be described and then filled.
@@ -82,8 +82,5 @@ class NetcdfFile {
   std::filesystem::path path_;
   std::string shown_name_;
 };
-
-/// Whether a NetCDF file may be open, so that the program must end by std::_Exit.
-bool must_end_at_once() noexcept;
 
 }  // namespace gearlash

@@ -9,13 +9,14 @@
 #include <atomic>
 #include <cerrno>
 #include <climits>
-#include <csignal>
 #include <cstring>
 #include <memory>
 #include <system_error>
 
 #include "input/units.hpp"
 #include "output/file_safety.hpp"
+#include "output/signals_held.hpp"
+#include "output/writing_process.hpp"
 
 namespace gearlash {
 namespace {
@@ -40,23 +41,6 @@ int claim_slot() {
 UnfinishedOutput& output_in(int slot) { return unfinished_outputs[static_cast<std::size_t>(slot)]; }
 
 std::string system_message(int error) { return std::generic_category().message(error); }
-
-/// Blocks signals while it lives, so that making a file and recording it for removal are not
-/// separated.
-class SignalsHeld {
- public:
-  SignalsHeld() {
-    sigset_t all;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before_);
-  }
-  ~SignalsHeld() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  SignalsHeld(const SignalsHeld&) = delete;
-  SignalsHeld& operator=(const SignalsHeld&) = delete;
-
- private:
-  sigset_t before_{};
-};
 
 bool is_regular_or_new(const std::filesystem::path& path) {
   std::error_code error;
@@ -138,6 +122,7 @@ std::filesystem::path destination_of(const std::filesystem::path& path) {
 }
 
 void remove_unfinished_outputs() noexcept {
+  end_writing_processes();
   for (UnfinishedOutput& output : unfinished_outputs) {
     if (output.exists.exchange(false)) unlink(output.name.data());
   }
