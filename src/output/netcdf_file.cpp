@@ -88,11 +88,16 @@ NetcdfFile NetcdfFile::create(const std::filesystem::path& path, std::string sho
   return {id, path, std::move(shown_name)};
 }
 
-NetcdfFile NetcdfFile::reopen(const std::filesystem::path& path, std::string shown_name) {
+NetcdfFile NetcdfFile::open(const std::filesystem::path& path, std::string shown_name, int mode) {
   int id = 0;
-  const int status = nc_open(path.c_str(), NC_WRITE, &id);
-  if (status != NC_NOERR) refuse(shown_name, status, 0);
+  errno = 0;
+  const int status = nc_open(path.c_str(), mode, &id);
+  if (status != NC_NOERR) refuse(shown_name, status, errno);
   return {id, path, std::move(shown_name)};
+}
+
+NetcdfFile NetcdfFile::reopen(const std::filesystem::path& path, std::string shown_name) {
+  return open(path, std::move(shown_name), NC_WRITE);
 }
 
 NetcdfDimension NetcdfFile::add_dimension(const std::string& name, std::size_t length) {
@@ -125,6 +130,7 @@ NetcdfVariable NetcdfFile::add_numbers(const std::string& name,
 void NetcdfFile::declare_nan_missing(NetcdfVariable variable) {
   const double missing = std::numeric_limits<double>::quiet_NaN();
   require(nc_put_att_double, variable, "missing_value", NC_DOUBLE, std::size_t{1}, &missing);
+  attributes_.push_back({variable, "missing_value", 1});
 }
 
 NetcdfVariable NetcdfFile::add_flags(const std::string& name,
@@ -139,6 +145,7 @@ NetcdfVariable NetcdfFile::add_flags(const std::string& name,
     words += (words.empty() ? "" : " ") + meaning;
   }
   require(nc_put_att_schar, variable, "flag_values", NC_BYTE, values.size(), values.data());
+  attributes_.push_back({variable, "flag_values", values.size()});
   set_attribute(variable, "flag_meanings", words);
   set_attribute(variable, "long_name", long_name);
   return variable;
@@ -147,13 +154,24 @@ NetcdfVariable NetcdfFile::add_flags(const std::string& name,
 void NetcdfFile::set_attribute(NetcdfVariable variable, const std::string& name,
                                const std::string& text) {
   require(nc_put_att_text, variable, name.c_str(), text.size(), text.c_str());
+  attributes_.push_back({variable, name, text.size()});
 }
 
 void NetcdfFile::set_attribute_of_file(const std::string& name, const std::string& text) {
   set_attribute(NC_GLOBAL, name, text);
 }
 
-void NetcdfFile::end_description() { require(nc_enddef); }
+void NetcdfFile::end_description() {
+  require(nc_enddef);
+  const NetcdfFile found = open(path_, shown_name_, NC_NOWRITE);
+  for (const Attribute& attribute : attributes_) {
+    std::size_t length = 0;
+    found.require(nc_inq_attlen, attribute.variable, attribute.name.c_str(), &length);
+    if (length != attribute.length) refuse(shown_name_, NC_EATTMETA, 0);
+  }
+  attributes_.clear();
+}
+
 void NetcdfFile::resume_description() { require(nc_redef); }
 
 NetcdfVariable NetcdfFile::variable(const std::string& name) const {
@@ -192,7 +210,7 @@ std::string NetcdfFile::attribute_of_file(const std::string& name) const {
 
 void NetcdfFile::begin_flush() const {
 #ifdef SYNC_FILE_RANGE_WRITE  // Linux
-  const int descriptor = open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return;
   // A length of 0 stands for the whole file.
   static_cast<void>(sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE));
@@ -202,7 +220,7 @@ void NetcdfFile::begin_flush() const {
 
 void NetcdfFile::flush() {
   require(nc_sync);
-  const int descriptor = open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
   const bool brought = descriptor >= 0 && fsync(descriptor) == 0;
   const int system_error = errno;
   if (descriptor >= 0) ::close(descriptor);

@@ -43,6 +43,8 @@ class NetcdfFile {
                            const std::string& long_name, const std::vector<std::string>& meanings);
   void set_attribute(NetcdfVariable variable, const std::string& name, const std::string& text);
   void set_attribute_of_file(const std::string& name, const std::string& text);
+  /// Also reads back which attributes there are: the library leaves out those for which it has no
+  /// memory, and reports success.
   void end_description();
   void resume_description();
 
@@ -72,15 +74,24 @@ class NetcdfFile {
   NetcdfFile(int id, std::filesystem::path path, std::string shown_name)
       : id_(id), path_(std::move(path)), shown_name_(std::move(shown_name)) {}
 
+  static NetcdfFile open(const std::filesystem::path& path, std::string shown_name, int mode);
+
   template <class Call, class... Arguments>
   void require(Call call, Arguments... arguments) const;
 
   NetcdfVariable define(const std::string& name, int type,
                         const std::vector<NetcdfDimension>& dimensions);
 
+  struct Attribute {
+    NetcdfVariable variable;
+    std::string name;
+    std::size_t length;
+  };
+
   int id_;  ///< the library's identifier
   std::filesystem::path path_;
   std::string shown_name_;
+  std::vector<Attribute> attributes_{};  ///< set since the last end_description()
 };
 
 }  // namespace gearlash
