@@ -1,11 +1,17 @@
-// To be preloaded into the tool: call number N of a kind fails, once. FAILING_CALL="KIND N" names
-// it, and the file of CALL_COUNTS has the calls of each kind, in the order of `kinds`.
+// To be preloaded into the tool, which then runs once for each request that it reads from its
+// standard input: call `number` of a kind fails, once. Each run is a fork at the first call of
+// main(), because starting the tool and its libraries takes longer than most runs. Its status goes
+// to descriptor 3. The file of CALL_COUNTS has the calls of each kind, in the order of Kind.
 //   open write fsync rename close   of an output file: no space is left on the device
+//   fork                            no process can be started
 //   allocate                        new, and malloc of the tool itself, from main() on
+//   library                         all other allocations in a child that writes a file
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <link.h>
+#include <pthread.h>
 #include <sys/mman.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -19,19 +25,39 @@
 #include <cstring>
 #include <new>
 
-extern "C" void* __libc_malloc(std::size_t size);  // NOLINT: glibc's name
+extern "C" {                                               // glibc's names
+void* __libc_malloc(std::size_t size);                     // NOLINT
+void* __libc_calloc(std::size_t count, std::size_t size);  // NOLINT
+void* __libc_realloc(void* memory, std::size_t size);      // NOLINT
+}
 
 namespace {
 
-enum Kind : std::size_t { opening, writing, syncing, renaming, closing, allocating };
-constexpr std::array kinds = {"open", "write", "fsync", "rename", "close", "allocate"};
+enum Kind : std::size_t {
+  opening,
+  writing,
+  syncing,
+  renaming,
+  closing,
+  forking,
+  allocating,
+  of_library,
+  kind_count
+};
 
-using Counts = std::array<std::atomic<std::uint64_t>, kinds.size()>;
+using Counts = std::array<std::atomic<std::uint64_t>, kind_count>;
 Counts own_counts;
 Counts* counts = &own_counts;
-std::size_t failing = kinds.size();
-std::uint64_t number = 0;
+
+constexpr int status_descriptor = 3;
+
+struct Request {
+  std::uint64_t kind = kind_count;
+  std::uint64_t number = 0;
+};
+Request failing;
 std::atomic<bool> in_main = false;
+std::atomic<bool> in_child = false;
 std::uintptr_t program_begin = 0;
 std::uintptr_t program_end = 0;
 
@@ -49,25 +75,17 @@ int note_program(dl_phdr_info* object, std::size_t, void*) {
 
 [[gnu::constructor]] void begin() {
   dl_iterate_phdr(note_program, nullptr);
+  pthread_atfork(nullptr, nullptr, [] { in_child = true; });
   if (const char* file = std::getenv("CALL_COUNTS")) {
     const int descriptor = open(file, O_RDWR | O_CLOEXEC);
     void* shared = mmap(nullptr, sizeof(Counts), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
     if (shared != MAP_FAILED) counts = static_cast<Counts*>(shared);
     close(descriptor);
   }
-  if (const char* call = std::getenv("FAILING_CALL")) {
-    for (std::size_t i = 0; i < kinds.size(); ++i) {
-      const std::size_t length = std::strlen(kinds[i]);
-      if (std::strncmp(call, kinds[i], length) == 0) {
-        number = std::strtoull(call + length, nullptr, 10);
-        failing = i;
-      }
-    }
-  }
   unsetenv("LD_PRELOAD");  // not in gnuplot
 }
 
-bool fails(Kind kind) { return ++(*counts)[kind] == number && kind == failing; }
+bool fails(Kind kind) { return ++(*counts)[kind] == failing.number && kind == failing.kind; }
 
 /// Outputs are written under a hidden name, a sweep's under that of its part.
 bool is_output(const char* name) {
@@ -98,6 +116,42 @@ int no_space() {
 
 bool is_lost(Kind kind) { return in_main && fails(kind); }
 
+bool is_own(const void* caller) {
+  const auto address = reinterpret_cast<std::uintptr_t>(caller);
+  return address >= program_begin && address < program_end;
+}
+
+/// In the fork, whose standard input is empty.
+void begin_run(const Request& asked) {
+  close(status_descriptor);
+  dup2(open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
+  for (auto& count : *counts) count = 0;
+  failing = asked;
+  in_child = false;
+  in_main = true;
+}
+
+/// Returns in each fork; the first process ends here.
+void serve_requests() {
+  if (const char* library = std::getenv("CALL_LIBRARY")) dlopen(library, RTLD_NOW | RTLD_LOCAL);
+  auto* const real_fork = next<pid_t()>("fork");
+  Request asked;
+  while (read(STDIN_FILENO, &asked, sizeof asked) == sizeof asked) {
+    const pid_t run = real_fork();
+    if (run == 0) return begin_run(asked);
+    int status = -1;
+    waitpid(run, &status, 0);
+    if (write(status_descriptor, &status, sizeof status) != sizeof status) break;
+  }
+  _exit(EXIT_SUCCESS);
+}
+
+/// What an allocation that fails returns.
+void* no_memory() {
+  errno = ENOMEM;
+  return nullptr;
+}
+
 }  // namespace
 
 extern "C" {
@@ -106,7 +160,7 @@ decltype(&std::signal) real_signal() { return next<decltype(std::signal)>("signa
 
 /// The first call of main().
 void (*signal(int number_of_signal, void (*handler)(int)))(int) {
-  in_main = true;
+  if (!in_main) serve_requests();
   return real_signal()(number_of_signal, handler);
 }
 
@@ -147,10 +201,8 @@ ssize_t pwrite(int descriptor, const void* bytes, size_t size, off_t offset) {
   return pwrite64(descriptor, bytes, size, offset);
 }
 
-int fsync(int descriptor) {
-  static auto* const real = next<int(int)>("fsync");
-  return is_output(descriptor) && fails(syncing) ? no_space() : real(descriptor);
-}
+/// Nobody waits for the disk.
+int fsync(int descriptor) { return is_output(descriptor) && fails(syncing) ? no_space() : 0; }
 
 int rename(const char* from, const char* to) {
   static auto* const real = next<int(const char*, const char*)>("rename");
@@ -165,14 +217,25 @@ int close(int descriptor) {
   return is_lost_now ? no_space() : result;
 }
 
+pid_t fork() {
+  static auto* const real = next<pid_t()>("fork");
+  if (!is_lost(forking)) return real();
+  errno = EAGAIN;
+  return -1;
+}
+
 void* malloc(size_t size) {
-  const auto caller = reinterpret_cast<std::uintptr_t>(__builtin_return_address(0));
-  const bool is_own = caller >= program_begin && caller < program_end;
-  if (is_own && is_lost(allocating)) {
-    errno = ENOMEM;
-    return nullptr;
-  }
-  return __libc_malloc(size);
+  const bool is_own_call = is_own(__builtin_return_address(0));
+  if (is_own_call && is_lost(allocating)) return no_memory();
+  return !is_own_call && in_child && fails(of_library) ? no_memory() : __libc_malloc(size);
+}
+
+void* calloc(size_t count, size_t size) {
+  return in_child && fails(of_library) ? no_memory() : __libc_calloc(count, size);
+}
+
+void* realloc(void* memory, size_t size) {
+  return in_child && fails(of_library) ? no_memory() : __libc_realloc(memory, size);
 }
 
 }  // extern "C"
