@@ -149,9 +149,6 @@ TEST(ExitStatus, WithoutThreadsTheWorkIsDoneInOne) {
        {std::pair("limit-cycle sheet.toml", "hunts: "),
         std::pair("tolerance sheet.toml --samples 32", "of "),
         std::pair("map --x friction-ratio=0.1:0.9:50 --y damping=0.1:0.6:50 --inertia-ratio 1 "
-                  "--output out/a.nc",
-                  "out/a.nc: 2500 servos"),
-        std::pair("map --x friction-ratio=0.1:0.9:50 --y damping=0.1:0.6:50 --inertia-ratio 1 "
                   "--output out/a.csv",
                   "out/a.csv: 2500 servos")}) {
     const Outcome run = run_shell(limited + "./gearlash " + command);
@@ -159,6 +156,14 @@ TEST(ExitStatus, WithoutThreadsTheWorkIsDoneInOne) {
     EXPECT_EQ(run.err, "") << command;
     EXPECT_THAT(run.out, HasSubstr(answer)) << command;
   }
+  // A process of its own writes NetCDF.
+  const Outcome netcdf = run_shell(limited +
+                                   "./gearlash chart --x friction-ratio=0.1,0.9 --damping 0.1 "
+                                   "--inertia-ratio 1 --output out/b.nc");
+  EXPECT_EQ(netcdf.status, 3);
+  EXPECT_EQ(netcdf.err,
+            "gearlash: no thread or process could be started: Resource temporarily unavailable\n");
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out/b.nc"));
 }
 
 }  // namespace
