@@ -180,6 +180,11 @@ struct Drive {
   std::optional<Sampling> sampling{};   ///< without it the controller is continuous
   std::optional<Signal> reference{};    ///< rad; 0 if not given
   std::optional<Signal> load_torque{};  ///< N m, on the load, forward; 0 if not given
+  /// Numbers of the normal form, or of a controller's lists, stand for others that they were
+  /// rounded from: decimals with more digits than a double keeps, fractions without a short
+  /// decimal, results of a computation. Proofs then hold for all numbers nearby. Else each stands
+  /// for the shortest decimal that reads back as it. Readers set it where a drive has such numbers.
+  bool is_rounded = false;
 
   bool operator==(const Drive&) const = default;
 };

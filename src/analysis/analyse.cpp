@@ -21,6 +21,7 @@
 #include "analysis/step_response.hpp"
 #include "base/arithmetic.hpp"
 #include "base/interval.hpp"
+#include "base/number.hpp"
 #include "base/range_check.hpp"
 #include "general/attractors/search_setting.hpp"
 #include "model/proportional_servo.hpp"
@@ -65,13 +66,14 @@ struct Scales {
   Interval time_unit;
 };
 
-Scales scales_of(const ClosedFormServo& servo, const DriveBox& box) {
+Scales scales_of(const Drive& drive, const ClosedFormServo& servo, const DriveBox& box) {
   if (!servo.is_as_given) return {Interval(box.backlash), Interval(box.time_unit)};
-  // A decimal lies between the neighbors of its double; 1 is exact.
-  const auto decimal = [](double number) {
-    return number == 1.0 ? Interval(1.0) : Interval(outward::below(number), outward::above(number));
+  // They may have units; 1 is what they are without a backlash and a natural frequency.
+  const auto known_number = [&](double number) {
+    return number == 1.0 && !drive.is_rounded ? Interval(1.0) : AsWritten()(number);
   };
-  return {decimal(servo.servo.backlash), Interval(1.0) / decimal(servo.natural_frequency)};
+  return {known_number(servo.servo.backlash),
+          Interval(1.0) / known_number(servo.natural_frequency)};
 }
 
 Bounds scaled(const Bounds& bounds, const Interval& unit) {
@@ -89,10 +91,10 @@ ProvedBounds bounds_of(const CycleBounds& bounds, const Scales& scales) {
 }
 
 /// Proofs are about the data that the servo's numbers stand for.
-LimitCycleAnalysis closed_analysis(const ClosedFormServo& servo, const DriveBox& box,
-                                   const Wanted& wanted) {
+LimitCycleAnalysis closed_analysis(const Drive& drive, const ClosedFormServo& servo,
+                                   const DriveBox& box, const Wanted& wanted) {
   if (!wanted.proofs) return analyse_limit_cycles(servo.servo);
-  if (servo.is_as_given) return enclose_limit_cycles(servo.servo, Reading::decimal);
+  if (servo.is_as_given) return enclose_limit_cycles(servo.servo, reading_of(drive));
   return enclose_limit_cycles(servo.servo, box.servo);
 }
 
@@ -475,10 +477,10 @@ Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress,
     const Drivetrain& drivetrain = found->drivetrain;
     const DriveBox box = box_between(drivetrain, drivetrain, data_error_of(drive, drivetrain));
     analysis.servo = found->closed_form;
-    analysis.closed = closed_analysis(*analysis.servo, box, wanted);
+    analysis.closed = closed_analysis(drive, *analysis.servo, box, wanted);
     analysis.answer = answer_of(*analysis.closed, *analysis.servo, found->stiffness);
     if (analysis.closed->bounds) {
-      const Scales scales = scales_of(*analysis.servo, box);
+      const Scales scales = scales_of(drive, *analysis.servo, box);
       analysis.answer.bounds = bounds_of(*analysis.closed->bounds, scales);
     }
   } else if (is_absent_by_energy(drive)) {

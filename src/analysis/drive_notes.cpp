@@ -40,6 +40,12 @@ std::string text_on_firmware(const Drive& drive) {
 
 std::vector<Note> notes_on(const Drive& drive) {
   std::vector<Note> notes;
+  if (drive.is_rounded) {
+    notes.push_back({"rounded-numbers",
+                     "Numbers of the drive were rounded as they were read or computed. What is "
+                     "proved holds of all numbers "
+                     "near them, and less is proved on boundaries."});
+  }
   if (drive.servo) return notes;
   const Motor& motor = drive.motor;
   if (drive.sensor.is_assumed) {

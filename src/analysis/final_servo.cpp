@@ -33,4 +33,8 @@ std::optional<FinalServo> final_servo(const Drive& drive) {
   return found;
 }
 
+Reading reading_of(const Drive& drive) {
+  return drive.servo && !drive.is_rounded ? Reading::decimal : Reading::converted;
+}
+
 }  // namespace gearlash

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "closed_form/cycle_bounds.hpp"
 #include "gearlash/drive.hpp"
 #include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
@@ -18,6 +19,8 @@ struct FinalServo {
 };
 /// Empty where the general engine must answer. Precondition: the drive is sound.
 std::optional<FinalServo> final_servo(const Drive& drive);
+/// How proofs read the numbers of its closed form.
+Reading reading_of(const Drive& drive);
 /// The drive without a reference that ends constant (hunting does not depend on it) and without a
 /// load torque that ends at 0. Precondition: its signals are sound.
 Drive without_ended_signals(Drive drive);

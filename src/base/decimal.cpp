@@ -28,10 +28,48 @@ std::optional<double> nearest_double(std::string_view text) {
 #endif
 }
 
-namespace by_trial {
 namespace {
 
-constexpr int most_digits = 17;  // read back as any double
+constexpr std::size_t most_digits = 17;  // read back as any double
+constexpr int digits_of_long_text = 20;
+
+/// The digits of a decimal number from the first that is not 0 on.
+std::string significant_digits(std::string_view text) {
+  std::string digits(text.substr(0, text.find_first_of("eE")));
+  std::erase_if(digits, [](char c) { return c < '0' || c > '9'; });
+  digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size()));
+  return digits;
+}
+
+std::string without_zeros_at_end(std::string digits) {
+  while (digits.ends_with('0')) digits.pop_back();
+  return digits;
+}
+
+}  // namespace
+
+bool is_long_decimal(std::string_view text) {
+  const std::string digits = significant_digits(text);
+  if (digits.empty()) return false;  // 0
+  const std::optional<double> value = nearest_double(text);
+  if (value && text == shortest_text(*value)) return false;  // an integer has all its digits
+  if (!value || digits.size() > most_digits) return true;
+  const std::string shortest = significant_digits(shortest_scientific_text(*value));
+  return without_zeros_at_end(digits) != without_zeros_at_end(shortest);
+}
+
+bool is_short_decimal(double value) {
+  constexpr int most_decimals = 15;
+  double scale = 1.0;
+  for (int decimals = 0; decimals <= most_decimals; ++decimals, scale *= 10.0) {
+    const double scaled = value * scale;
+    if (scaled == std::floor(scaled)) return std::fma(value, scale, -scaled) == 0.0;
+  }
+  return false;
+}
+
+namespace by_trial {
+namespace {
 
 enum class Notation { general, scientific, fixed };
 
@@ -62,7 +100,7 @@ std::string neighbour(const std::string& digits, int step) {
 /// outside the numbers that read back as `value`, and its neighbour inside.
 Digits shortest_digits(double value) {
   Digits result{.sign = std::signbit(value) ? "-" : "", .digits = {}};
-  for (int count = 1; count <= most_digits; ++count) {
+  for (int count = 1; count <= static_cast<int>(most_digits); ++count) {
     const std::string text = printed(std::abs(value), count - 1, Notation::scientific);
     const std::size_t e = text.find('e');
     result.point = std::atoi(text.c_str() + e + 1) + 1;
@@ -115,6 +153,10 @@ std::string rounded_text(double value, int digits) {
   return printed(value, digits, Notation::general);
 }
 
+std::string long_text(double value) {
+  return printed(value, digits_of_long_text - 1, Notation::scientific);
+}
+
 }  // namespace by_trial
 
 #ifdef __cpp_lib_to_chars
@@ -137,6 +179,9 @@ std::string shortest_scientific_text(double value) {
 std::string rounded_text(double value, int digits) {
   return written(value, std::chars_format::general, digits);
 }
+std::string long_text(double value) {
+  return written(value, std::chars_format::scientific, digits_of_long_text - 1);
+}
 
 #else
 
@@ -145,6 +190,7 @@ std::string shortest_scientific_text(double value) {
   return by_trial::shortest_scientific_text(value);
 }
 std::string rounded_text(double value, int digits) { return by_trial::rounded_text(value, digits); }
+std::string long_text(double value) { return by_trial::long_text(value); }
 
 #endif
 

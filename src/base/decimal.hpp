@@ -20,6 +20,17 @@ std::string shortest_scientific_text(double value);
 /// With so many significant digits, 1 to 17, as printf's %g.
 std::string rounded_text(double value, int digits);
 
+/// In twenty significant digits: "5.0000000000000000000e-01". is_long_decimal() holds of it.
+std::string long_text(double value);
+
+/// Whether a decimal number, as nearest_double() takes it, may be another number than the shortest
+/// one that its double has: its digits are others, or more than seventeen, zeros at its end
+/// included. Precondition: `text` is such a number.
+bool is_long_decimal(std::string_view text);
+
+/// Whether a double is itself a decimal of at most fifteen digits after the point.
+bool is_short_decimal(double value);
+
 namespace by_trial {
 
 // What the above do where the standard library writes no doubles: they print ever more digits until
@@ -27,6 +38,7 @@ namespace by_trial {
 std::string shortest_text(double value);
 std::string shortest_scientific_text(double value);
 std::string rounded_text(double value, int digits);
+std::string long_text(double value);
 
 }  // namespace by_trial
 

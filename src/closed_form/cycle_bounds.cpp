@@ -3,22 +3,12 @@
 #include <cmath>
 
 #include "base/arithmetic.hpp"
+#include "base/decimal.hpp"
 #include "base/special_numbers.hpp"
 #include "closed_form/boxed_half_cycle.hpp"
 
 namespace gearlash {
 namespace {
-
-/// Whether a double is itself a decimal of at most fifteen digits after the point.
-bool is_short_decimal(double value) {
-  constexpr int most_digits = 15;
-  double scale = 1.0;
-  for (int digits = 0; digits <= most_digits; ++digits, scale *= 10.0) {
-    const double scaled = value * scale;
-    if (scaled == std::floor(scaled)) return std::fma(value, scale, -scaled) == 0.0;
-  }
-  return false;
-}
 
 Interval known(double value, double error) { return value * Interval(1.0 - error, 1.0 + error); }
 

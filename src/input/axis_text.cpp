@@ -56,6 +56,18 @@ std::size_t read_count(std::string_view field, std::string_view text) {
   return count;
 }
 
+/// Whether the axis gives Drive::is_rounded to the drives on it.
+bool is_rounded(const AxisText& axis, const Drive& drive) {
+  const std::string path = path_named(axis.name, drive);
+  const Parameter* parameter = find_parameter(path.substr(0, path.find('[')));
+  if (parameter == nullptr || !may_be_rounded(*parameter, drive)) return false;
+  const std::vector<std::string_view> ranges = split(axis.values, ":");
+  return std::any_of(ranges.begin(), ranges.end(), [](std::string_view range) {
+    const std::vector<std::string_view> values = split(range, ",");
+    return std::any_of(values.begin(), values.end(), has_long_decimal);
+  });
+}
+
 }  // namespace
 
 AxisText split_axis(std::string_view field, std::string_view text) {
@@ -92,7 +104,10 @@ Drive drive_of_axes(const Drive& drive, const std::vector<AxisText>& axes) {
   const bool wants_normal_form = std::any_of(axes.begin(), axes.end(), [&](const AxisText& axis) {
     return path_named(axis.name, drive).starts_with("servo.");
   });
-  return drive.servo || !wants_normal_form ? drive : normal_form_of(drive).value_or(drive);
+  Drive varied = drive.servo || !wants_normal_form ? drive : normal_form_of(drive).value_or(drive);
+  varied.is_rounded |= std::any_of(axes.begin(), axes.end(),
+                                   [&](const AxisText& axis) { return is_rounded(axis, varied); });
+  return varied;
 }
 
 Axis read_axis(const AxisText& text, const Drive& drive, std::string* left_out) {

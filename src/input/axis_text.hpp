@@ -21,7 +21,8 @@ struct AxisText {
 AxisText split_axis(std::string_view field, std::string_view text);
 
 /// The drive that the axes vary. It is reduced to its normal form, natural frequency kept, if an
-/// axis varies a number that only the normal form has, such as `damping`.
+/// axis varies a number that only the normal form has, such as `damping`. It is_rounded if an axis
+/// gives it a decimal with more digits than a double has.
 Drive drive_of_axes(const Drive& drive, const std::vector<AxisText>& axes);
 
 /// Reads numbers, fractions and numbers with units; a bare number is in SI. Words name the choices

@@ -79,11 +79,11 @@ void apply(TomlDocument& document, const Setting& setting) {
   // Everything but a list or a table becomes text, which the key's reader parses: "30 arcmin",
   // "1/4".
   if (const std::optional<toml::array> list = list_in(setting.text)) {
-    document.set(place, *list);
+    document.set(place, *list, setting.text);
   } else if (const std::optional<toml::table> table = table_in(setting.text)) {
-    document.set(place, *table);
+    document.set(place, *table, setting.text);
   } else {
-    document.set(place, toml::value<std::string>(setting.text));
+    document.set(place, toml::value<std::string>(setting.text), setting.text);
   }
 }
 

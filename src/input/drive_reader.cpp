@@ -101,6 +101,7 @@ class DriveReader {
     refuse_other_sections();
     if (!has_anything()) return std::move(file_);
     for (const Section& section : all_sections()) read_section(section);
+    drive().is_rounded = has_rounded_numbers();
     check();
     return std::move(file_);
   }
@@ -119,6 +120,15 @@ class DriveReader {
   bool has_key(const char* section, const char* key) const {
     const toml::table* table = document_.root()[section].as_table();
     return table != nullptr && table->contains(key);
+  }
+
+  /// Drive::is_rounded.
+  bool has_rounded_numbers() {
+    if (drive().servo) return document_.has_long_decimals("servo");
+    const std::vector<Parameter>& all = all_parameters_of_drives();
+    return std::any_of(all.begin(), all.end(), [&](const Parameter& parameter) {
+      return may_be_rounded(parameter, drive()) && document_.has_long_decimal_at(parameter.path);
+    });
   }
 
   // ---- sections ---------------------------------------------------------------------------------

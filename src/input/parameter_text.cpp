@@ -72,6 +72,7 @@ void set(Drive& drive, std::string_view path, std::string_view text) {
   add_section_of(drive, path);
   const Parameter& parameter = parameter_of(drive, path);
   const bool has_index = path.find('[') != std::string_view::npos;
+  if (may_be_rounded(parameter, drive) && has_long_decimal(text)) drive.is_rounded = true;
   const Slot slot = parameter.slot(drive);
   if (const auto* choice = std::get_if<Choice>(&slot)) {
     choice->choose(drive, choice_of(parameter, path, text));

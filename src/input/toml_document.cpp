@@ -178,10 +178,28 @@ TomlDocument::TomlDocument(std::string_view text, std::string_view source_name, 
     refuse_at(where(place), "line", shown(line(place.line)),
               "must be TOML: " + shown(error.description(), 200));
   }
+  require_doubles(root_);
 }
 
-void TomlDocument::set(std::string_view path, const toml::node& value) {
+/// The parser takes what is nearer to 0 than any double for 0.
+void TomlDocument::require_doubles(const toml::node& node) const {
+  if (const toml::table* table = node.as_table()) {
+    for (const auto& entry : *table) require_doubles(entry.second);
+  } else if (const toml::array* array = node.as_array()) {
+    for (const toml::node& element : *array) require_doubles(element);
+  } else if (const auto* number = node.as_floating_point(); number && number->get() == 0.0) {
+    const std::string_view source = source_of(node);
+    const std::string_view digits = source.substr(0, source.find_first_of("eE"));
+    if (digits.find_first_of("123456789") == std::string_view::npos) return;
+    const Place place = node.source().begin;
+    refuse_at(where(place), "line", shown(line(place.line)),
+              "must be numbers from 1e-308 to 1e308 in size, or zero");
+  }
+}
+
+void TomlDocument::set(std::string_view path, const toml::node& value, std::string_view written) {
   const std::size_t point = path.find('.');
+  if (has_long_decimal(written)) long_settings_.emplace(path);
   const std::string_view section = path.substr(0, point);
   if (!root_[section].is_table()) root_.insert_or_assign(section, toml::table{});
   value.visit([&](const auto& typed) {
@@ -191,6 +209,9 @@ void TomlDocument::set(std::string_view path, const toml::node& value) {
 
 bool TomlDocument::remove(std::string_view path) {
   const std::size_t point = path.find('.');
+  if (const auto place = long_settings_.find(path); place != long_settings_.end()) {
+    long_settings_.erase(place);
+  }
   toml::table* section = root_[path.substr(0, point)].as_table();
   if (section == nullptr || section->erase(path.substr(point + 1)) == 0) return false;
   if (section->empty()) root_.erase(path.substr(0, point));
@@ -221,15 +242,49 @@ std::string TomlDocument::written(const toml::node& node) const {
       " …");
 }
 
+std::string_view TomlDocument::source_of(const toml::node& node) const {
+  const toml::source_region& source = node.source();
+  return columns(line(source.begin.line), source.begin.column, source.end.column);
+}
+
+bool TomlDocument::is_long(const toml::node& node) const {
+  const auto is_long_node = [&](const toml::node& other) { return is_long(other); };
+  if (const toml::table* table = node.as_table()) {
+    return std::any_of(table->cbegin(), table->cend(),
+                       [&](const auto& entry) { return is_long(entry.second); });
+  }
+  if (const toml::array* array = node.as_array()) {
+    return std::any_of(array->cbegin(), array->cend(), is_long_node);
+  }
+  if (const auto* text = node.as_string()) return has_long_decimal(text->get());
+  return node.is_number() && node.source().begin.line > 0 && has_long_decimal(source_of(node));
+}
+
+bool TomlDocument::has_long_decimal_at(std::string_view path) const {
+  const std::size_t point = path.find('.');
+  const toml::table* table = root_[path.substr(0, point)].as_table();
+  const toml::node* node = table != nullptr ? table->get(path.substr(point + 1)) : nullptr;
+  return node != nullptr && (is_long(*node) || long_settings_.count(path) > 0);
+}
+
+bool TomlDocument::has_long_decimals(std::string_view section) const {
+  const toml::table* table = root_[section].as_table();
+  if (table == nullptr) return false;
+  return std::any_of(table->cbegin(), table->cend(), [&](const auto& entry) {
+    return has_long_decimal_at(std::string(section) + "." + std::string(entry.first.str()));
+  });
+}
+
 namespace {
 
 template <class Node>
 std::optional<Node> node_in(std::string_view text) {
   try {
-    const toml::table table = toml::parse("value = " + std::string(text));
-    const Node* node = table["value"].as<Node>();
-    if (node != nullptr && table.size() == 1) return *node;
-  } catch (const toml::parse_error&) {  // another one
+    const std::string assigned = "value = " + std::string(text);
+    const TomlDocument document(assigned, "", assigned.size());
+    const Node* node = document.root()["value"].as<Node>();
+    if (node != nullptr && document.root().size() == 1) return *node;
+  } catch (const InvalidInput&) {  // another one
   }
   return std::nullopt;
 }

@@ -4,7 +4,9 @@
 #include <toml++/toml.h>
 
 #include <cstddef>
+#include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,14 +21,15 @@ using Place = toml::source_position;
 class TomlDocument {
  public:
   /// Parses `text`, which must outlive the document. Throws InvalidInput with one fault for a text
-  /// that is longer than `largest` bytes, holds NUL or is not UTF-8, nests too deep, or is not
-  /// TOML.
+  /// that is longer than `largest` bytes, holds NUL or is not UTF-8, nests too deep, is not TOML,
+  /// or has a number that no double holds.
   TomlDocument(std::string_view text, std::string_view source_name, std::size_t largest);
 
   const toml::table& root() const { return root_; }
 
-  /// Sets the key `path`, "section.key", to a value that has no place in the text.
-  void set(std::string_view path, const toml::node& value);
+  /// Sets the key `path`, "section.key", to a value that has no place in the text: it was read from
+  /// `written`.
+  void set(std::string_view path, const toml::node& value, std::string_view written);
   /// Removes the key, and its section if that is then empty. Returns whether the key was there.
   bool remove(std::string_view path);
   void remove_section(std::string_view name) { root_.erase(name); }
@@ -38,12 +41,22 @@ class TomlDocument {
   /// value; fit for one line.
   std::string written(const toml::node& node) const;
 
+  /// Whether a number among the values of a section, in its lists, tables and texts, may be another
+  /// one than its double stands for: has_long_decimal().
+  bool has_long_decimals(std::string_view section) const;
+  /// The same of one key, "section.key".
+  bool has_long_decimal_at(std::string_view path) const;
+
  private:
+  void require_doubles(const toml::node& node) const;
+  bool is_long(const toml::node& node) const;
+  std::string_view source_of(const toml::node& node) const;
   std::string_view line(std::size_t number) const;
 
   std::string source_name_;
   std::vector<std::string_view> lines_;
   toml::table root_;
+  std::set<std::string, std::less<>> long_settings_;  ///< paths that set() gave long decimals
 };
 
 /// Reads a TOML list such as "[1, 2.5]"; nothing for any other text.

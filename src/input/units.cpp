@@ -96,6 +96,19 @@ std::string escaped(char32_t c) {
   return c < 0x80 ? "\\x" + hexadecimal(c, 2) : "\\u" + hexadecimal(c, 4);
 }
 
+/// Whether `text` is a fraction of two decimals that is not proved to be the shortest decimal of
+/// its double: both and the quotient must be exact in few decimals.
+bool is_inexact_fraction(std::string_view text) {
+  const std::size_t slash = text.find_first_of("/:");
+  if (slash == std::string_view::npos) return false;
+  const std::optional<double> above = decimal(trimmed(text.substr(0, slash)));
+  const std::optional<double> below = decimal(trimmed(text.substr(slash + 1)));
+  if (!above || !below || *below == 0.0) return false;
+  const double quotient = *above / *below;
+  return !is_short_decimal(*above) || !is_short_decimal(*below) || !is_short_decimal(quotient) ||
+         std::fma(quotient, *below, -*above) != 0.0;
+}
+
 }  // namespace
 
 Measured read_quantity(std::string_view field, std::string_view text, const Dimension& expected) {
@@ -183,6 +196,21 @@ std::optional<double> bare_number(std::string_view text) {
   } catch (const InvalidInput&) {
     return std::nullopt;
   }
+}
+
+bool has_long_decimal(std::string_view written) {
+  std::string plain(written);
+  std::erase(plain, '_');
+  std::string_view text = trimmed(plain);
+  if (is_inexact_fraction(text)) return true;
+  while (!text.empty()) {
+    const std::size_t length = number_length(text);
+    std::string_view number = text.substr(0, length);
+    if (number.starts_with('+')) number.remove_prefix(1);
+    if (length > 0 && is_long_decimal(number)) return true;
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return false;
 }
 
 std::uint64_t read_whole(std::string_view field, std::string_view text, std::uint64_t least,

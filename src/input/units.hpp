@@ -46,6 +46,11 @@ double read_share(std::string_view field, std::string_view text);
 /// read_number(), but nothing for text that is not a number or has a unit.
 std::optional<double> bare_number(std::string_view text);
 
+/// Whether a number in a text may be another one than the shortest decimal of the double that it is
+/// read as: is_long_decimal() of any number in it, which may have TOML's underscores, or a fraction
+/// that is not a short decimal, such as "1/3".
+bool has_long_decimal(std::string_view written);
+
 /// Reads a whole number without sign, fraction or exponent. Throws InvalidInput, of `field`, for
 /// anything else and for numbers outside `least` to `most`.
 std::uint64_t read_whole(std::string_view field, std::string_view text, std::uint64_t least,

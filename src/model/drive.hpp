@@ -201,6 +201,9 @@ struct ReducedDriveOf {
   Signal reference{};                            ///< rad
   Signal load_torque{};                          ///< N m, on the load, forward
   GravityOf<Number> gravity{};
+  /// Numbers in the controller's lists stand for others: see gearlash::Drive::is_rounded. That two
+  /// of them are equal is then not known; 0 is exact.
+  bool has_rounded_lists = false;
 
   static constexpr auto members() {
     return std::make_tuple(
@@ -208,7 +211,7 @@ struct ReducedDriveOf {
         &ReducedDriveOf::contact, &ReducedDriveOf::sensing, &ReducedDriveOf::controller,
         &ReducedDriveOf::error_shape, &ReducedDriveOf::feedforward, &ReducedDriveOf::torque_limit,
         &ReducedDriveOf::winding, &ReducedDriveOf::sampling, &ReducedDriveOf::reference,
-        &ReducedDriveOf::load_torque, &ReducedDriveOf::gravity);
+        &ReducedDriveOf::load_torque, &ReducedDriveOf::gravity, &ReducedDriveOf::has_rounded_lists);
   }
 };
 using ReducedDrive = ReducedDriveOf<double>;

@@ -174,10 +174,12 @@ System<Number> sprung_plant(const LinearDrive<Number>& drive) {
 
 // ---- from a reduced drive -----------------------------------------------------------------------
 
+/// `is_rounded`: that two of its numbers are opposite is not known.
 template <class Number>
-ControllerRow<Number> row_of(const Vector<Number>& inputs, Vector<Number> of_state) {
+ControllerRow<Number> row_of(const Vector<Number>& inputs, Vector<Number> of_state,
+                             bool is_rounded) {
   return {.of_state = std::move(of_state),
-          .reference = drive::of_both(inputs),
+          .reference = is_rounded ? inputs[0] + inputs[1] : drive::of_both(inputs),
           .position = inputs[1],
           .speed = inputs[2]};
 }
@@ -200,10 +202,10 @@ LinearDrive<Number> made_of(const ReducedDrive& form, const drive::ReducedDriveO
   if (const auto* faces = std::get_if<drive::CompliantContactOf<Number>>(&numbers.contact)) {
     linear.spring = {faces->stiffness, faces->damping};
   }
-  linear.torque = row_of(controller.direct, controller.output);
+  linear.torque = row_of(controller.direct, controller.output, form.has_rounded_lists);
   for (std::size_t i = 0; i < controller.order(); ++i) {
     linear.controller_states.push_back(
-        row_of(controller.input_matrix[i], controller.state_matrix[i]));
+        row_of(controller.input_matrix[i], controller.state_matrix[i], form.has_rounded_lists));
   }
   if (!form.sampling) return linear;
   linear.period = numbers.sampling->period;

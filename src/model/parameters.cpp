@@ -71,6 +71,14 @@ bool exists(const Parameter& parameter, const Drive& drive) {
   return !std::holds_alternative<std::monostate>(parameter.slot(const_cast<Drive&>(drive)));
 }
 
+bool may_be_rounded(const Parameter& parameter, const Drive& drive) {
+  if (parameter.section() == "servo") return true;
+  const Slot slot = parameter.slot(const_cast<Drive&>(drive));
+  return parameter.section() == "controller" &&
+         (std::holds_alternative<std::vector<double>*>(slot) ||
+          std::holds_alternative<Rows*>(slot));
+}
+
 std::vector<std::string> words_of(const Parameter& parameter) {
   std::vector<std::string> words(parameter.choices.begin(), parameter.choices.end());
   for (const OtherWord& other : parameter.other_words) words.emplace_back(other.word);

@@ -120,6 +120,10 @@ std::optional<std::size_t> choice_named(const Parameter& parameter, std::string_
 /// Why the parameter refuses this word, if it has a reason of its own; else empty.
 std::string_view reason_against(const Parameter& parameter, std::string_view word);
 
+/// Whether the parameter holds numbers of which Drive::is_rounded tells: those of a normal form,
+/// and lists of a controller.
+bool may_be_rounded(const Parameter& parameter, const Drive& drive);
+
 /// Notes a value that the parameter must not have, in `unit`.
 void check_number(RangeCheck& check, const Parameter& parameter, double value,
                   std::string_view unit);

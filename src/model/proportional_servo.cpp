@@ -38,7 +38,7 @@ std::optional<Drivetrain> proportional_drivetrain(const ReducedDrive& drive) {
   if (rigid == nullptr || !is_smooth(drive) || !is_undisturbed(drive)) return std::nullopt;
   if (drive.sensing.load_share_of_position != 1.0) return std::nullopt;
   const LinearController controller = linear_controller(drive.controller);
-  if (!is_proportional(controller)) return std::nullopt;
+  if (drive.has_rounded_lists || !is_proportional(controller)) return std::nullopt;
   // The torque acts on the motor, so only feedback of the motor's speed acts as friction.
   const double feedback = -controller.direct[2];
   if (feedback != 0.0 && drive.sensing.load_share_of_speed != 0.0) return std::nullopt;

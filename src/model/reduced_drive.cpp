@@ -143,6 +143,7 @@ std::optional<Drive> normal_form_of(const Drive& drive) {
   Drive form = normal_form(servo.damping, servo.inertia_ratio, servo.friction_ratio, servo.backlash,
                            servo.restitution);
   form.servo->natural_frequency = closed->natural_frequency;
+  form.is_rounded = drive.is_rounded || !closed->is_as_given;
   return form;
 }
 

@@ -83,8 +83,8 @@ inline constexpr char permitted_with_closed_form[] =
 /// 0 are included. Empty for any other drive. Precondition: every parameter is in its range.
 std::optional<ClosedFormServo> closed_form_servo(const Drive& drive);
 
-/// The same servo as a normal form with its natural frequency; empty for any other drive.
-/// Precondition as above.
+/// The same servo as a normal form with its natural frequency; empty for any other drive. Numbers
+/// computed from data with units are rounded. Precondition as above.
 std::optional<Drive> normal_form_of(const Drive& drive);
 /// The servo that a normal form with a closed form is, without checks.
 ClosedFormServo normal_form_servo(const Drive& drive);

@@ -64,6 +64,7 @@ class Reduction {
     // A reference that does not move has nothing to be compensated.
     if (std::holds_alternative<double>(reduced.reference)) reduced.feedforward = {};
     reduced.gravity = gravity();
+    reduced.has_rounded_lists = drive_.is_rounded && !drive_.servo;
     reduced.load_torque = drive_.load_torque.value_or(0.0);
     return reduced;
   }

@@ -24,48 +24,66 @@ std::string toml_text(std::string_view text) {
   return Json(std::string(text)).dump();
 }
 
+/// How numbers are written: the shortest decimals, or with digits by which readers see that they
+/// stand for others (Drive::is_rounded).
+enum class Decimals : bool { shortest, rounded };
+
 /// A number as TOML, whose integers end at 2⁶³.
-std::string bare_text(double value) {
+std::string bare_text(double value, Decimals decimals = Decimals::shortest) {
+  if (decimals == Decimals::rounded && value != 0.0 && std::isfinite(value)) {
+    return long_text(value);
+  }
   constexpr double least_without_integer = 0x1p63;
   const bool is_long = std::abs(value) >= least_without_integer && std::isfinite(value);
   return is_long ? shortest_scientific_text(value) : exact_text(value);
 }
 
-std::string list_text(const std::vector<double>& numbers) {
+std::string list_text(const std::vector<double>& numbers, Decimals decimals) {
   std::string text = "[";
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    text += (i == 0 ? "" : ", ") + bare_text(numbers[i]);
+    text += (i == 0 ? "" : ", ") + bare_text(numbers[i], decimals);
   }
   return text + "]";
 }
 
-std::string number_text(double value, const Dimension* dimension) {
+std::string number_text(double value, const Dimension* dimension,
+                        Decimals decimals = Decimals::shortest) {
   if (dimension == nullptr) {
-    const std::string text = bare_text(value);
+    const std::string text = bare_text(value, decimals);
     return text == "inf" ? toml_text(text) : text;
   }
-  return toml_text(exact_text(value) + " " + std::string(dimension->unit));
+  const bool is_rounded = decimals == Decimals::rounded && value != 0.0;
+  return toml_text((is_rounded ? long_text(value) : exact_text(value)) + " " +
+                   std::string(dimension->unit));
+}
+
+Decimals decimals_of(const Parameter& parameter, const Drive& drive) {
+  const bool is_rounded = drive.is_rounded && may_be_rounded(parameter, drive);
+  return is_rounded ? Decimals::rounded : Decimals::shortest;
 }
 
 /// The value as TOML; empty if it is not given and has no default.
 std::string value_text(const Parameter& parameter, const Drive& drive) {
   const Slot slot = parameter.slot(const_cast<Drive&>(drive));
+  const Decimals decimals = decimals_of(parameter, drive);
   if (const auto* choice = std::get_if<Choice>(&slot)) {
     return toml_text(parameter.choices[choice->chosen(drive)]);
   }
-  if (auto* const* list = std::get_if<std::vector<double>*>(&slot)) return list_text(**list);
+  if (auto* const* list = std::get_if<std::vector<double>*>(&slot)) {
+    return list_text(**list, decimals);
+  }
   if (auto* const* text = std::get_if<std::string*>(&slot)) {
     return (*text)->empty() ? "" : toml_text(**text);
   }
   if (auto* const* rows = std::get_if<Rows*>(&slot)) {
     std::string text = "[";
     for (std::size_t i = 0; i < (*rows)->size(); ++i) {
-      text += (i == 0 ? "" : ", ") + list_text((**rows)[i]);
+      text += (i == 0 ? "" : ", ") + list_text((**rows)[i], decimals);
     }
     return text + "]";
   }
   const std::optional<double> number = number_in(parameter, drive);
-  return number ? number_text(*number, parameter.dimension(drive)) : "";
+  return number ? number_text(*number, parameter.dimension(drive), decimals) : "";
 }
 
 const Distribution* distribution_of(const Parameter& parameter, const TolerancedDrive& drive) {
@@ -78,7 +96,9 @@ const Distribution* distribution_of(const Parameter& parameter, const Toleranced
 /// The value with its tolerance as TOML, in one of the forms of input/toleranced_value.hpp.
 std::string toleranced_text(const Distribution& varies, const Parameter& parameter,
                             const Drive& drive) {
-  const auto number = [&](double value) { return number_text(value, parameter.dimension(drive)); };
+  const auto number = [&](double value) {
+    return number_text(value, parameter.dimension(drive), decimals_of(parameter, drive));
+  };
   if (const auto* exact = std::get_if<ExactValue>(&varies)) return number(exact->value);
   if (const auto* about = std::get_if<UniformAbout>(&varies)) {
     return fmt::format("{{ value = {}, tolerance = {} }}", number(about->nominal),
@@ -122,6 +142,7 @@ Json value_json(const Parameter& parameter, const Drive& drive) {
 /// A drive with the same parts and kinds, and defaults for everything else.
 Drive with_defaults(const Drive& drive) {
   Drive fresh;
+  fresh.is_rounded = drive.is_rounded;
   if (drive.servo) fresh.servo.emplace();
   if (drive.sampling) fresh.sampling.emplace();
   if (drive.reference) fresh.reference.emplace(0.0);

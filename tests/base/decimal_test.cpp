@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <vector>
 
 #include "seeded_draws.hpp"
@@ -22,6 +23,31 @@ TEST(Decimal, ReadsTheNearestDouble) {
   EXPECT_EQ(nearest_double("4.9e-324"), std::numeric_limits<double>::denorm_min());
   EXPECT_EQ(nearest_double("1.7976931348623157e308"), std::numeric_limits<double>::max());
   EXPECT_EQ(nearest_double("1e309"), std::nullopt);
+}
+
+TEST(Decimal, ALongOneIsNotTheShortestOfItsDouble) {
+  for (const char* text : {"0", "0.000000000000000000000000", "-0.1", "0.10", "1000000", "1e22",
+                           "0.30000000000000004", "17976931348623157e292", "4.9e-324", "5e-324"}) {
+    const bool is_smallest = std::string_view(text) == "4.9e-324";  // its shortest text is 5e-324
+    EXPECT_EQ(is_long_decimal(text), is_smallest) << text;
+  }
+  for (const char* text :
+       {"0.1000000000000000055511151231257827", "0.30000000000000001", "0.500000000000000000",
+        "1e-400", "0.99999999999999999999", "9007199254740993"}) {
+    EXPECT_TRUE(is_long_decimal(text)) << text;
+  }
+}
+
+TEST(Decimal, LongTextsAreLongAndReadBack) {
+  SeededDraws draws(4401);
+  for (int i = 0; i < 2000; ++i) {
+    const double value = i == 0 ? 0.5 : std::ldexp(draws.uniform(-1.0, 1.0), i % 200 - 100);
+    const std::string text = long_text(value);
+    EXPECT_EQ(nearest_double(text), value);
+    EXPECT_TRUE(is_long_decimal(text)) << text;
+    EXPECT_FALSE(is_long_decimal(shortest_text(value))) << text;
+    EXPECT_EQ(text, by_trial::long_text(value));
+  }
 }
 
 std::vector<double> doubles_of_every_size() {

@@ -55,6 +55,33 @@ json answer_of_sample(const std::vector<std::string>& more = {}) {
   return answer_of(with_sample_servo(more));
 }
 
+// ζ = 1, r = 2.75, f = 0.2 lies on the boundary of what energy proves.
+TEST(LimitCycleCommand, ALongDecimalIsNotTakenForAShortOne) {
+  const std::string rest =
+      " --inertia-ratio 2.75 --friction-ratio 0.2 --restitution 0.5 --backlash 1";
+  const std::string file =
+      "printf '[servo]\\ndamping = %s\\ninertia_ratio = 2.75\\nfriction_ratio = 0.2\\n"
+      "backlash = \"1 rad\"\\n[contact]\\nrestitution = 0.5\\n' ";
+  const auto text_of = [](const std::string& command) {
+    const Outcome run = run_shell(command);
+    EXPECT_EQ(run.status, 0) << run.err;
+    return run.out;
+  };
+  for (const std::string& way :
+       {std::string("\"$GEARLASH\" limit-cycle --damping @") + rest,
+        std::string("\"$GEARLASH\" limit-cycle --damping 3 --set servo.damping=@") + rest,
+        file + "@ | \"$GEARLASH\" limit-cycle -",
+        file + "@ | \"$GEARLASH\" show - | \"$GEARLASH\" limit-cycle -"}) {
+    const auto with = [&](const std::string& damping) {
+      std::string command = way;
+      return text_of(command.replace(command.find('@'), 1, damping));
+    };
+    EXPECT_THAT(with("1"), HasSubstr("This is proved."));
+    EXPECT_THAT(with("0.99999999999999999999"), HasSubstr("it is not proved"));
+    EXPECT_THAT(with("0.99999999999999999999"), HasSubstr("were rounded"));
+  }
+}
+
 TEST(LimitCycleCommand, JsonReadsBackAsExactlyWhatTheLibraryFinds) {
   const json printed = answer_of_sample();
   const NormalizedServo servo{

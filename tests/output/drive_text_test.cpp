@@ -156,5 +156,34 @@ TEST(DriveText, InfinityIsText) {
   EXPECT_EQ(drive_json(drive)["servo.inertia_ratio"], "inf");
 }
 
+// Else a copy would be proved for the short decimals of its doubles.
+TEST(DriveText, ARoundedDriveReadsBackAsOne) {
+  const auto servo_with = [](const std::string& damping) {
+    return read("[servo]\ndamping = " + damping +
+                "\ninertia_ratio = 2\nfriction_ratio = 0.1\nbacklash = '0.3 rad'\n");
+  };
+  for (const char* damping : {"0.19000000000000000000001", "0.5000000000000000000001", "0.19"}) {
+    const Drive drive = servo_with(damping);
+    const Drive again = read(to_toml(drive));
+    EXPECT_EQ(to_toml(again), to_toml(drive));
+    EXPECT_EQ(again.is_rounded, drive.is_rounded) << to_toml(drive);
+    EXPECT_EQ(drive.is_rounded, std::string(damping) != "0.19");
+  }
+  Drive exact = servo_with("0.19");
+  EXPECT_FALSE(exact == servo_with("0.19000000000000000000001"));
+  EXPECT_EQ(defaults_taken(exact), defaults_taken(servo_with("0.19000000000000000000001")));
+  exact.is_rounded = true;
+  EXPECT_EQ(exact, servo_with("0.19000000000000000000001"));
+  const Drive listed = read(
+      "[motor]\nkind = 'torque-controlled'\ninertia = '2 g cm2'\nfriction = '1e-6 N m "
+      "s/rad'\n[gearbox]\nratio = '113/12'\n"
+      "backlash = '2 mrad'\n[load]\ninertia = '0.01 kg m2'\nfriction = '0.1 N m s/rad'\n"
+      "[controller]\nkind = 'state-space'\ngain = '1 N m/rad'\nA = [[-100]]\n"
+      "B = [[1, -1, 0]]\nC = [1]\n"
+      "D = [20.5, -20.500000000000000000001, 0]\n");
+  EXPECT_TRUE(listed.is_rounded);
+  EXPECT_TRUE(read(to_toml(listed)).is_rounded) << to_toml(listed);
+}
+
 }  // namespace
 }  // namespace gearlash::drive_text_test

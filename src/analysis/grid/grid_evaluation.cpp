@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <mutex>
 
 #include "analysis/analyse.hpp"
+#include "analysis/design/changeable_drive.hpp"
+#include "analysis/final_servo.hpp"
 #include "analysis/grid/followed_drives.hpp"
 #include "base/on_threads.hpp"
 #include "base/shared_progress.hpp"
@@ -174,6 +177,7 @@ class GridPart {
   template <class Walk>
   GridCount work_out(Walk walk, bool proved, VectorUnit unit, SharedProgress& progress) {
     Walk walk_again = walk;
+    proves_ = proved;
     for (std::size_t row = 0; row < servos_.size(); ++row, walk.go_on()) {
       points_.are_of_normal_form() ? place(row, points_.normal_form_at(walk.values()))
                                    : place(row, points_.drive_at(walk.values()));
@@ -181,7 +185,9 @@ class GridPart {
     GridCount count;
     count.solved = find_limit_cycles(servos_, columns_, unit);
     count.solved.one_by_one -= refused_.size() + searched_.size();  // less the stand-ins
-    if (proved) count.unproved = keep_proved(servos_, columns_);
+    if (proved) {
+      count.unproved = keep_proved(servos_, columns_, [&](std::size_t row) { return box(row); });
+    }
     bring_to_si();
     search(progress);
     for (const std::size_t row : refused_) write(columns_, row, Answer{});
@@ -225,10 +231,21 @@ class GridPart {
       servos_[row] = servo->closed_form.servo;
       scales_.push_back(
           {row, servo->closed_form.natural_frequency, servo->stiffness.value_or(not_a_number)});
+      if (proves_ && !drive.servo) {
+        const DataError error = data_error_of(drive, servo->drivetrain);
+        boxes_.emplace(row, box_between(servo->drivetrain, servo->drivetrain, error).servo);
+      }
     } else {
       searched_rows_.push_back(row);
       searched_.push_back(std::move(drive));
     }
+  }
+
+  /// All servos that a row stands for.
+  ServoBox box(std::size_t row) const {
+    const auto computed = boxes_.find(row);
+    return computed != boxes_.end() ? computed->second
+                                    : box_of(servos_[row], reading_of(points_.drive()));
   }
 
   void search(SharedProgress& progress) {
@@ -268,6 +285,8 @@ class GridPart {
   std::vector<NormalizedServo> servos_;
   std::size_t longest_run_;
   std::vector<Scale> scales_;
+  bool proves_ = false;
+  std::map<std::size_t, ServoBox> boxes_;  ///< of servos computed from data with units
   std::vector<std::size_t> searched_rows_;
   std::vector<Drive> searched_;
   std::vector<std::size_t> refused_;

@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "closed_form/cycle_bounds.hpp"
 #include "closed_form/lanes/cycle_kernel.hpp"
 
 namespace gearlash {
@@ -168,10 +167,9 @@ const char* name_of(VectorUnit unit) {
 
 namespace {
 
-bool is_proved(const NormalizedServo& servo, Verdict verdict) {
-  if (servo.backlash == 0.0 || servo.damping == 0.0) return true;
+bool is_proved(const ServoBox& box, Verdict verdict) {
   const double nothing_known = std::numeric_limits<double>::quiet_NaN();
-  const CycleBounds bounds = bound_cycles(box_of(servo, Reading::exact), nothing_known);
+  const CycleBounds bounds = bound_cycles(box, nothing_known);
   if (verdict == Verdict::hunts) return bounds.all_hunt();
   return verdict == Verdict::undecided || bounds.none_hunt();
 }
@@ -182,11 +180,13 @@ bool has_plastic_contact(const NormalizedServo& servo) {
 
 }  // namespace
 
-std::size_t keep_proved(std::span<const NormalizedServo> servos, const CycleColumns& cycles) {
+std::size_t keep_proved(std::span<const NormalizedServo> servos, const CycleColumns& cycles,
+                        const std::function<ServoBox(std::size_t row)>& box_of_row) {
   std::size_t unproved = 0;
   for (std::size_t row = 0; row < servos.size(); ++row) {
     const NormalizedServo& servo = servos[row];
-    if (!has_plastic_contact(servo) || is_proved(servo, cycles.verdict[row])) continue;
+    if (!has_plastic_contact(servo) || servo.backlash == 0.0 || servo.damping == 0.0) continue;
+    if (is_proved(box_of_row(row), cycles.verdict[row])) continue;
     const std::span<double> growth = cycles[Quantity::growth_at_rest];
     write_row(cycles, row, Verdict::undecided, growth.empty() ? 0.0 : growth[row], LimitCycle{});
     ++unproved;

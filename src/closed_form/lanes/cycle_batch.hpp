@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
+#include "closed_form/cycle_bounds.hpp"
 #include "closed_form/limit_cycle.hpp"
 #include "gearlash/quantity.hpp"
 #include "model/normalized_servo.hpp"
@@ -86,9 +88,10 @@ BatchCount find_limit_cycles(std::span<const NormalizedServo> servos, const Cycl
 
 /// Changes each unproved verdict to `undecided`, with NaN in all but the growth at rest, and
 /// returns their number. A verdict on a servo with plastic contact and damping is proved if the
-/// enclosure of its growth at rest confirms it (bound_cycles() of the servo's own doubles).
-/// Verdicts on servos that bounce are not changed. Precondition: the columns are those that
-/// find_limit_cycles() wrote, with the verdict.
-std::size_t keep_proved(std::span<const NormalizedServo> servos, const CycleColumns& cycles);
+/// enclosure of its growth at rest confirms it, for all servos of the row's box. Verdicts on servos
+/// that bounce are not changed. Precondition: the columns are those that find_limit_cycles() wrote,
+/// with the verdict.
+std::size_t keep_proved(std::span<const NormalizedServo> servos, const CycleColumns& cycles,
+                        const std::function<ServoBox(std::size_t row)>& box_of_row);
 
 }  // namespace gearlash
