@@ -233,7 +233,7 @@ struct CeilingTerm {
 /// same speed v, with |x|/position + |v|/speed ≤ 1, anywhere in the gap. x and v are means of both
 /// shafts by their inertias. So a step of the reference up to `position` never meets it either, if
 /// the controller knows reference and position by their difference alone and there is no gravity. A
-/// computer starts at a tick.
+/// computer starts at a tick. Signals that end have ended at the start.
 struct SafeStarts {
   double position = 0.0;  ///< rad
   double speed = 0.0;     ///< rad/s
@@ -260,8 +260,9 @@ struct Ceiling {
   std::optional<bool> meets_limit{};
   /// Starts that never meet the torque limit. Empty if none is proved.
   std::optional<SafeStarts> safe_starts{};
-  /// N m: no motion in the end has a larger mean of the mesh torque's size. Rigid faces, a
-  /// continuous controller, constant signals, no dry friction or encoder; empty for others.
+  /// N m: no motion in the end has a larger mean of the mesh torque's size; like the ceiling not of
+  /// motion that reaches a torque or current limit again and again (is_below_limit). Rigid faces, a
+  /// continuous linear controller, constant signals, no dry friction or encoder; empty for others.
   std::optional<double> mesh_torque{};
   std::vector<CeilingTerm> terms{};  ///< what each source contributes
   /// The term "gap speed" is bounded by what brakes it, not by the width of the gap.

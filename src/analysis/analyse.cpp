@@ -468,6 +468,22 @@ std::optional<bool> is_quantization(const Drive& drive, const drive::AttractorSe
   return rests ? std::optional(true) : std::nullopt;
 }
 
+bool has_torque_limit(const drive::ReducedDrive& drive) {
+  return std::isfinite(drive.torque_limit) || std::isfinite(drive.winding.torque_limit);
+}
+
+/// Where the arithmetic is not that of proofs the data were read in it too.
+void take_for_computed(Answer& answer) {
+  const auto demote = [](Certainty& certainty) {
+    certainty = std::min(certainty, Certainty::computed);
+  };
+  demote(answer.certainty);
+  demote(answer.completeness);
+  for (Cycle& cycle : answer.cycles) demote(cycle.certainty);
+  answer.is_dissipative = false;
+  answer.bounds.reset();
+}
+
 Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress,
                   const SearchScope& scope) {
   require_none(faults(drive));
@@ -505,7 +521,9 @@ Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress,
   }
   add_figures(drive, wanted, analysis.answer, progress);
   if (wanted.ceiling) {
-    analysis.answer.ceiling->mesh_torque = highest_mean_mesh_torque(drive);
+    Ceiling& ceiling = *analysis.answer.ceiling;
+    ceiling.mesh_torque = highest_mean_mesh_torque(drive);
+    ceiling.is_below_limit = has_torque_limit(analysis.reduced);
   }
   // The motion from which a ceiling is measured stands in the end, unless a sine drives it.
   if (!is_driven(analysis.reduced)) withdraw_if_contradictory(analysis.answer);
@@ -514,6 +532,7 @@ Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress,
   }
   std::vector<Note> notes = notes_on(drive);
   if (!proves()) {
+    take_for_computed(analysis.answer);
     notes.push_back(
         {"arithmetic", "Nothing is proved: " + std::string(fault_of_arithmetic()) + "."});
   }

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "base/arithmetic.hpp"
 #include "base/decimal.hpp"
 #include "base/interval.hpp"
 
@@ -74,6 +75,7 @@ bool is_dissipative(const NormalizedServo& servo, Reading reading) {
 }
 
 bool is_dissipative(const ServoBox& box) {
+  if (!proves()) return false;
   const auto time_constant = [](const Bounds& rate) {
     return std::isinf(rate.low) ? Interval(0.0) : 1.0 / Interval(rate);
   };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "model/signal.hpp"
 #include "output/columns.hpp"
 #include "output/json_values.hpp"
 
@@ -30,13 +31,22 @@ std::string lower_bound_text(double radians, const AnswerReport& report) {
          unit.name;
 }
 
+/// Whether the reference or the load torque moves until a time and then goes on as it is analysed.
+bool has_ending_signal(const Drive& drive) {
+  const auto ends = [](const std::optional<Signal>& signal) {
+    return signal && drive::settling_time(*signal) > 0.0;
+  };
+  return ends(drive.reference) || ends(drive.load_torque);
+}
+
 std::string safe_starts_text(const AnswerReport& report) {
   const std::optional<SafeStarts>& starts = report.answer.ceiling->safe_starts;
   if (!starts) return "";
   return "\n" +
          wrapped(fmt::format(
-             "Starts displaced by up to ±{} from the motion with the gap closed never meet the "
+             "{}tarts displaced by up to ±{} from the motion with the gap closed never meet the "
              "torque limit, nor do starts on it whose speed differs by up to ±{}/s (proved).",
+             has_ending_signal(report.drive) ? "Once the signals have ended, s" : "S",
              lower_bound_text(starts->position, report), lower_bound_text(starts->speed, report)));
 }
 
@@ -48,12 +58,28 @@ std::optional<double> widest_backlash(const AnswerReport& report) {
   return ceiling->widest_backlash(*report.specification, backlash);
 }
 
+std::string below_limit_text(const Ceiling& ceiling) {
+  return ceiling.is_below_limit ? ", if its torque stays below the limit" : "";
+}
+
+/// The bound of the mesh torque of a drive whose swing has none.
+std::string mesh_torque_alone(const AnswerReport& report) {
+  const Ceiling& ceiling = *report.answer.ceiling;
+  if (!ceiling.mesh_torque) return "";
+  return wrapped(
+      fmt::format("In the end the mean mesh torque of every motion is within {}{} "
+                  "(proved).",
+                  torque_text(*ceiling.mesh_torque, report), below_limit_text(ceiling)));
+}
+
 }  // namespace
 
 std::string ceiling_text(const AnswerReport& report) {
   if (!report.answer.ceiling) return "";
   const Ceiling& ceiling = *report.answer.ceiling;
-  if (!ceiling.load) return "\n" + wrapped("No ceiling: " + ceiling.reason + ".");
+  if (!ceiling.load) {
+    return "\n" + wrapped("No ceiling: " + ceiling.reason + ".") + mesh_torque_alone(report);
+  }
   const auto angle = [&](double value) {
     return swing_bound_text(value, report.angle, usual_digits);
   };
@@ -72,8 +98,7 @@ std::string ceiling_text(const AnswerReport& report) {
   if (ceiling.mesh_torque) {
     rows.push_back({"mean mesh torque", torque_text(*ceiling.mesh_torque, report), ""});
   }
-  return "\nCeiling: what no motion exceeds in the end" +
-         std::string(ceiling.is_below_limit ? ", if its torque stays below the limit" : "") +
+  return "\nCeiling: what no motion exceeds in the end" + below_limit_text(ceiling) +
          " (proved)\n" + table_text(rows) + safe_starts_text(report);
 }
 

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "gearlash/output.hpp"
+#include "output/ceiling_report.hpp"
 #include "output/comparison_report.hpp"
 
 namespace gearlash::answer_report_test {
@@ -53,6 +54,29 @@ TEST(Headline, SaysWhereTheMotorAloneSwings) {
   EXPECT_EQ(
       headline(report_of(Verdict::hunts, ticking)),
       "hunts: the motor within the gap, ±0.004 rad (0.229°) at 2 Hz, while the load stands still");
+}
+
+/// Its proof needs motion off the torque limit, whether the swing has a ceiling or not.
+TEST(CeilingText, TheMeanMeshTorqueHoldsBelowALimit) {
+  AnswerReport report = report_of(Verdict::hunts, swing);
+  report.answer.ceiling = {.reason = "too large", .is_below_limit = true, .mesh_torque = 2.0};
+  EXPECT_THAT(ceiling_text(report),
+              HasSubstr("In the end the mean mesh torque of every motion is within ±2 N m at the "
+                        "load, if\nits torque stays below the limit (proved).\n"));
+  report.answer.ceiling->is_below_limit = false;
+  EXPECT_THAT(ceiling_text(report), Not(HasSubstr("limit")));
+  report.answer.ceiling->mesh_torque.reset();
+  EXPECT_THAT(ceiling_text(report), Not(HasSubstr("mesh")));
+}
+
+/// They are of the motion about the final course of the signals.
+TEST(CeilingText, SafeStartsAreThoseAfterSignalsThatEnd) {
+  AnswerReport report = report_of(Verdict::hunts, swing);
+  report.answer.ceiling = {
+      .load = 0.1, .motor = 0.1, .is_below_limit = true, .safe_starts = SafeStarts{0.2, 0.3}};
+  EXPECT_THAT(ceiling_text(report), HasSubstr("\nStarts displaced"));
+  report.drive.reference = TableSignal{.times = {0.0, 1.0}, .values = {0.0, 5.0}};
+  EXPECT_THAT(ceiling_text(report), HasSubstr("\nOnce the signals have ended, starts displaced"));
 }
 
 TEST(Headline, OfForcedMotionIsNoHunting) {

@@ -1,8 +1,11 @@
 """Threads, forks, Ctrl-C, progress and memory at the boundary of the module."""
 
+import ctypes
+import ctypes.util
 import gc
 import multiprocessing
 import os
+import platform
 import resource
 import signal
 import subprocess
@@ -184,3 +187,46 @@ def test_daemon_threads_in_long_calls_do_not_abort_the_exit():
                               text=True, check=False, timeout=60)
         assert (done.returncode, done.stdout) == (0, "leaving\n"), done.stderr
         assert done.stderr == ""
+
+
+# Downward, upward and toward 0, as <fenv.h> numbers them.
+ROUNDING_MODES = {"x86_64": (0x400, 0x800, 0xC00), "aarch64": (0x800000, 0x400000, 0xC00000)}
+
+
+def test_nothing_is_proved_with_another_rounding_mode():
+    """Other software may change how a thread rounds: its answers are computed, and say why."""
+    if platform.machine() not in ROUNDING_MODES:
+        pytest.skip("the numbers of its rounding modes are not known")
+    libm = ctypes.CDLL(ctypes.util.find_library("m"))
+    theorem = gearlash.Drive.normal_form(damping=1, inertia_ratio=1, friction_ratio=0.5, backlash=1)
+    enclosed = gearlash.Drive.normal_form(damping=0.19, inertia_ratio=2, friction_ratio=0.1,
+                                          backlash=0.3)
+    by_energy = gearlash.Drive(
+        motor={"kind": "torque-controlled", "inertia": 1.0, "friction": 2.0},
+        gearbox={"ratio": 1, "backlash": 0.1}, load={"inertia": 1.0, "friction": 2.0},
+        sensor={"position": "motor"},
+        controller={"kind": "PD", "proportional": 1.0, "derivative": 1.0, "filter": 0.05})
+    drives = (theorem, enclosed, by_energy)
+    answers = {}
+
+    def work(mode):
+        before = libm.fegetround()
+        try:
+            assert mode is None or libm.fesetround(mode) == 0
+            answers[mode] = [gearlash.analyse(drive) for drive in drives]
+        finally:
+            libm.fesetround(before)
+
+    for mode in (None, *ROUNDING_MODES[platform.machine()]):
+        thread = threading.Thread(target=work, args=(mode,))
+        thread.start()
+        thread.join()
+    proved = ("enclosed", "theorem")
+    for mode, found in answers.items():
+        for answer in found:
+            is_usual = mode is None
+            assert (str(answer.certainty) in proved) == is_usual
+            assert any(note.code == "arithmetic" for note in answer.notes) != is_usual
+            assert all((str(cycle.certainty) in proved) == is_usual for cycle in answer.cycles)
+            assert (answer.ceiling.load is not None) == is_usual
+            assert is_usual or (answer.bounds is None and answer.ceiling.mesh_torque is None)

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "closed_form/cycle_bounds.hpp"
+#include "closed_form/energy_balance.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/input.hpp"
 
@@ -41,6 +42,30 @@ TEST(ChangedArithmetic, EnclosesNoCycleOfAServo) {
     EXPECT_FALSE(answer.ceiling && answer.ceiling->load);
     EXPECT_FALSE(answer.ceiling && answer.ceiling->mesh_torque);
   }
+}
+
+/// Exact comparisons decide it, of data that were read by that arithmetic.
+TEST(ChangedArithmetic, TellsNoTheorem) {
+  for (const Drive& servo : {normal_form(1.0, 1.0, 0.5, 0.3), normal_form(0.3, 1.0, 1.0, 0.3),
+                             normal_form(0.0, 1.0, 0.5, 0.3), normal_form(0.3, 1.0, 0.5, 0.0)}) {
+    EXPECT_EQ(answer_rounding(FE_TONEAREST, servo).certainty, Certainty::theorem);
+    const Answer answer = answer_rounding(FE_UPWARD, servo);
+    EXPECT_LT(answer.certainty, Certainty::enclosed);
+    EXPECT_LT(answer.completeness, Certainty::enclosed);
+    for (const Cycle& cycle : answer.cycles) EXPECT_LT(cycle.certainty, Certainty::enclosed);
+    EXPECT_FALSE(answer.bounds);
+    EXPECT_TRUE(says_why(answer));
+  }
+}
+
+TEST(ChangedArithmetic, EnclosesNoBoxByEnergy) {
+  const ServoBox box = box_of({.damping = 2.0, .friction_ratio = 0.5}, Reading::exact);
+  EXPECT_TRUE(is_dissipative(box));
+  const int before = std::fegetround();
+  std::fesetround(FE_DOWNWARD);
+  const bool is_proved = is_dissipative(box);
+  std::fesetround(before);
+  EXPECT_FALSE(is_proved);
 }
 
 TEST(ChangedArithmetic, ProvesNoAbsenceByEnergy) {

@@ -50,6 +50,36 @@ TEST(RegressionBound, MeanMeshTorqueIncludesALoadTorque) {
   EXPECT_NEAR(*with, *without + 0.1, 1e-9);
 }
 
+/// Motion at a limit of torque or current is not the linear one of its proof.
+TEST(RegressionBound, MeanMeshTorqueIsOfMotionBelowTheLimit) {
+  Drive drive = drive_of("hanging-load");
+  const Answer unlimited = analyse(drive, {.proofs = false, .ceiling = true});
+  drive.motor.limit = 40.0;
+  const Answer limited = analyse(drive, {.proofs = false, .ceiling = true});
+  ASSERT_TRUE(unlimited.ceiling->mesh_torque && limited.ceiling->mesh_torque);
+  EXPECT_FALSE(unlimited.ceiling->is_below_limit);
+  EXPECT_TRUE(limited.ceiling->is_below_limit);
+}
+
+/// The motor's speed jumps with the mesh torque: the gap's has no bound, and so the effort that
+/// contains it.
+TEST(RegressionBound, AMotorWithoutInertiaHasNoGapSpeed) {
+  Drive drive;
+  drive.motor = {.kind = TorqueControl{}, .friction = {.viscous = 0.01}};
+  drive.gearbox = {.ratio = 1.0, .backlash = 2e-3};
+  drive.load = {.inertia = 0.01, .friction = {.viscous = 0.1}};
+  drive.sensor.position = SensorPlace::both;
+  drive.controller.law = PID{.terms = PIDTerms::PD, .proportional = 20.0, .derivative = 0.5};
+  for (const double inertia : {0.0, 0.01}) {
+    drive.motor.inertia = inertia;
+    ASSERT_TRUE(faults(drive).empty());
+    const Ceiling found = ceiling(drive);
+    EXPECT_TRUE(found.load);
+    EXPECT_EQ(found.effort.has_value(), inertia > 0.0);
+    EXPECT_EQ(found.effort_reason.empty(), inertia > 0.0);
+  }
+}
+
 /// The motor carries the weight's torque and the reference's: at 0.4 rad from the reference 40 r −
 /// 20 θ = 2 N m. Gains of a constant torque and of a constant reference bound it from above.
 TEST(RegressionBound, WhetherTheLimitIsMetByAHangingLoadThatRestsElsewhere) {
