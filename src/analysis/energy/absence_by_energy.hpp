@@ -5,8 +5,9 @@
 
 namespace gearlash {
 
-/// Whether it is proved that no motion of the drive is sustained: seen from its contact, and from
-/// its dry frictions if it has any, the rest of the drive only ever takes energy. It holds for
+/// Whether it is proved that every motion of the drive comes to rest, the speeds of both shafts
+/// tending to 0: seen from its contact, and from its dry frictions if it has any, the rest of the
+/// drive only ever takes energy. It holds for
 /// rigid faces of any restitution and for compliant ones, damped or not
 /// (docs/explanation/absence-by-energy.md). Sufficient, not necessary. False for a
 /// sampled controller, an encoder, a torque limit or a signal that moves, of which nothing is
