@@ -25,11 +25,17 @@ struct KnownDrive {
   KnownDrive(const Drivetrain& drive, const DataError& error)
       : motor_inertia(known(drive.motor_inertia, error.each)),
         load_inertia(known(drive.load_inertia, error.each)),
-        motor_friction(known(drive.motor_friction, error.motor_friction)),
+        motor_friction(motor_friction_of(drive, error)),
         load_friction(known(drive.load_friction, error.each)),
         stiffness(known(drive.stiffness, error.each)),
         backlash(known(drive.backlash, error.each)) {}
 
+  /// A 0 is exact, unless it hides something.
+  static Interval motor_friction_of(const Drivetrain& drive, const DataError& error) {
+    const Interval given = known(drive.motor_friction, error.motor_friction);
+    if (error.hidden_motor_friction == 0.0) return given;
+    return {given.low, outward::above(given.high + error.hidden_motor_friction)};
+  }
   /// A shaft's friction over its inertia, and its share of the total inertia.
   static Interval rate(const Interval& friction, const Interval& inertia) {
     return inertia.high == 0.0 ? Interval(infinity) : friction / inertia;

@@ -32,6 +32,8 @@ enum class Reading {
 struct DataError {
   double each = 0x1p-46;            ///< sixty-four units in the last place
   double motor_friction = 0x1p-46;  ///< for F_M; more if computed from a friction ratio
+  /// N m s/rad: F_M may be larger by this; of a friction ratio that was rounded to 1.
+  double hidden_motor_friction = 0.0;
 };
 
 /// The box of one servo. Precondition: validate(servo) is empty.

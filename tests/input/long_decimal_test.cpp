@@ -110,6 +110,14 @@ TEST(LongDecimals, MatterInListsOfControllersAlone) {
   EXPECT_TRUE(rounded("[20.5, -20.500000000000000000001, 0]"));
   const Drive drive = parse_drive(sheet_with("[20.5, -20.500000000000000000001, 0]"));
   EXPECT_TRUE(reduce(drive).has_rounded_lists);
+  // No state is seen: it would be proportional, were k and −k known to be equal.
+  const auto is_servo = [](const std::string& direct) {
+    std::string text = sheet_with(direct);
+    text.replace(text.find("C = [1]"), 7, "C = [0]");
+    return closed_form_servo(parse_drive(text)).has_value();
+  };
+  EXPECT_TRUE(is_servo("[20.5, -20.5, 0]"));
+  EXPECT_FALSE(is_servo("[20.5, -20.500000000000000000001, 0]"));
 }
 
 TEST(LongDecimals, ANormalFormOfADataSheetIsComputed) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "analysis/design/changeable_drive.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/grid.hpp"
 #include "gearlash/input.hpp"
@@ -41,6 +42,15 @@ TEST(RegressionLongDecimals, OnTheBoundaryOfEnergyTheNumbersOfTheFileDecide) {
 TEST(RegressionLongDecimals, AShaftWithLittleFrictionIsNotOneWithout) {
   EXPECT_EQ(answer_of("0.5", "2", "1").certainty, Certainty::theorem);
   EXPECT_LT(answer_of("0.5", "2", "0.99999999999999999999").certainty, Certainty::theorem);
+}
+
+TEST(RegressionLongDecimals, ABoxKnowsTheFrictionThatRoundingHides) {
+  Drive drive = normal_form(0.5, 2.0, 1.0);
+  EXPECT_EQ(ChangeableDrive(drive).box().servo.motor_rate, (Bounds{0.0, 0.0}));
+  drive.is_rounded = true;
+  const Bounds rate = ChangeableDrive(drive).box().servo.motor_rate;
+  EXPECT_EQ(rate.low, 0.0);
+  EXPECT_GT(rate.high, 0x1p-53);
 }
 
 // The bounds hold the cycles of all numbers that round to the same double.

@@ -84,6 +84,9 @@ DataError data_error_of(const Drive& drive, const Drivetrain& drivetrain) {
     error.motor_friction +=
         std::numeric_limits<double>::epsilon() / (1.0 - drive.servo->friction_ratio);
   }
+  if (drive.is_rounded && drive.servo && drive.servo->friction_ratio == 1.0) {
+    error.hidden_motor_friction = error.each * drivetrain.load_friction;
+  }
   const double friction = drivetrain.motor_friction;
   const double terms = friction_terms(drive, friction);
   if (terms > friction) {
