@@ -100,6 +100,9 @@ TEST(RegressionBound, WhetherTheLimitIsMetAlongARampThatTheLoadDoesNotFollow) {
   EXPECT_FALSE(ceiling(drive).meets_limit);
   std::get<StateSpaceController>(drive.controller.law).D = {20.0, -20.0, -4.0};
   EXPECT_TRUE(ceiling(drive).meets_limit);
+  // 20 and −20 may stand for decimals of more digits, which are not opposite.
+  drive.is_rounded = true;
+  EXPECT_FALSE(ceiling(drive).meets_limit);
 }
 
 // ---- the gap's speed ----------------------------------------------------------------------------
