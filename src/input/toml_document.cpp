@@ -146,16 +146,15 @@ void require_parsable(std::string_view text, const std::vector<std::string_view>
   }
 }
 
-/// The characters of `line` from column `begin` to before `end`.
-std::string_view columns(std::string_view line, std::size_t begin, std::size_t end) {
+/// Where each character begins, and the end; none in a line of ASCII, where they are its bytes.
+std::vector<std::size_t> character_places(std::string_view line) {
+  if (std::all_of(line.begin(), line.end(), is_ascii)) return {};
+  std::vector<std::size_t> places;
   std::string_view rest = line;
-  std::size_t first = line.size();
-  for (std::size_t column = 1; !rest.empty() && column < end; ++column) {
-    if (column == begin) first = line.size() - rest.size();
-    if (!take_code_point(rest)) break;
-  }
-  const std::size_t last = line.size() - rest.size();
-  return first < last ? line.substr(first, last - first) : std::string_view();
+  do {
+    places.push_back(line.size() - rest.size());
+  } while (!rest.empty() && take_code_point(rest));
+  return places;
 }
 
 }  // namespace
@@ -170,6 +169,7 @@ TomlDocument::TomlDocument(std::string_view text, std::string_view source_name, 
   text = without_byte_order_mark(text);
   require_text(text, source_name_);
   lines_ = split_lines(text);
+  for (const std::string_view line : lines_) character_places_.push_back(character_places(line));
   require_parsable(text, lines_, source_name_);
   try {
     root_ = toml::parse(text);
@@ -226,6 +226,18 @@ std::string_view TomlDocument::line(std::size_t number) const {
   return number >= 1 && number <= lines_.size() ? lines_[number - 1] : std::string_view();
 }
 
+std::string_view TomlDocument::columns(std::size_t number, std::size_t begin,
+                                       std::size_t end) const {
+  const std::string_view text = line(number);
+  if (text.empty()) return text;
+  const std::vector<std::size_t>& places = character_places_[number - 1];
+  const auto place = [&](std::size_t column) {
+    return places.empty() ? std::min(column - 1, text.size())
+                          : places[std::min(column - 1, places.size() - 1)];
+  };
+  return text.substr(place(begin), place(end) - place(begin));
+}
+
 std::string TomlDocument::written(const toml::node& node) const {
   if (const auto* string = node.as_string()) return shown(string->get());
   const toml::source_region& source = node.source();
@@ -235,16 +247,15 @@ std::string TomlDocument::written(const toml::node& node) const {
     return shown(text.str());
   }
   if (source.begin.line == source.end.line) {
-    return shown(columns(line(source.begin.line), source.begin.column, source.end.column));
+    return shown(columns(source.begin.line, source.begin.column, source.end.column));
   }
   return shown(
-      std::string(columns(line(source.begin.line), source.begin.column, std::string_view::npos)) +
-      " …");
+      std::string(columns(source.begin.line, source.begin.column, std::string_view::npos)) + " …");
 }
 
 std::string_view TomlDocument::source_of(const toml::node& node) const {
   const toml::source_region& source = node.source();
-  return columns(line(source.begin.line), source.begin.column, source.end.column);
+  return columns(source.begin.line, source.begin.column, source.end.column);
 }
 
 bool TomlDocument::is_long(const toml::node& node) const {

@@ -52,9 +52,12 @@ class TomlDocument {
   bool is_long(const toml::node& node) const;
   std::string_view source_of(const toml::node& node) const;
   std::string_view line(std::size_t number) const;
+  /// The characters of a line from column `begin` to before `end`.
+  std::string_view columns(std::size_t number, std::size_t begin, std::size_t end) const;
 
   std::string source_name_;
   std::vector<std::string_view> lines_;
+  std::vector<std::vector<std::size_t>> character_places_;  ///< of each line
   toml::table root_;
   std::set<std::string, std::less<>> long_settings_;  ///< paths that set() gave long decimals
 };
