@@ -220,6 +220,11 @@ class Simulation {
   }
 
   void record_step() {
+    constexpr std::size_t most_observed = 1024;  // of a flight without an event
+    if (observer_ != nullptr && trajectory_.steps_.size() >= most_observed) {
+      largest_in_mode();  // while the starts are known
+      forget_steps();
+    }
     trajectory_.steps_.push_back({now_.time, now_.state.mode, over_});
     const double* numbers = now_.state.numbers.data();
     trajectory_.starts_.insert(trajectory_.starts_.end(), numbers,
@@ -302,12 +307,16 @@ class Simulation {
     if (observer_ != nullptr) forget();
   }
 
-  /// Of a motion that is observed only the last events are kept, which show what recurs at an
-  /// instant or ever faster.
-  void forget() {
+  void forget_steps() {
     trajectory_.steps_.clear();
     trajectory_.starts_.clear();
     trajectory_.touches_.clear();
+  }
+
+  /// Of a motion that is observed only the last events are kept, which show what recurs at an
+  /// instant or ever faster.
+  void forget() {
+    forget_steps();
     constexpr std::size_t kept = 256;
     std::vector<Event>& events = trajectory_.events_;
     if (events.size() < 2 * kept) return;

@@ -104,5 +104,29 @@ TEST(Allocation, IsNotMadeByTheTicksOfAMotionThatIsObserved) {
   EXPECT_EQ(allocations_of_ticks(40'000), allocations_of_ticks(20'000));
 }
 
+/// Shafts that a spring joins swing without an event until the next tick, which may be years away.
+TEST(Allocation, IsNotMadeByTheStepsOfALongFlightThatIsObserved) {
+  Drive drive;
+  drive.motor = {.kind = TorqueControl{}, .inertia = 1.0};
+  drive.load = {.inertia = 1.0, .friction = {.viscous = 1e-6}};
+  drive.gearbox = {.ratio = 1.0, .backlash = 0.0};
+  drive.contact = CompliantContact{.stiffness = 1.0};
+  drive.controller.law = PID{.proportional = 1.0};
+  drive.sampling = Sampling{.period = 1e8};
+  const drive::ReducedDrive reduced = reduce(drive);
+  const drive::DriveSystem built = drive_system(reduced);
+  const hybrid::PreparedSystem system(built.system);
+  const hybrid::State start = drive_start(reduced, built, {.motor_position = 1.0});
+  const auto allocations_until = [&](double until) {
+    Forgotten observer;
+    const std::size_t before = allocations;
+    observe(system, start, {.until = until}, observer);
+    EXPECT_GT(static_cast<double>(observer.pieces), 0.1 * until);
+    return allocations - before;
+  };
+  allocations_until(40'000.0);  // the thread's first call
+  EXPECT_EQ(allocations_until(40'000.0), allocations_until(20'000.0));
+}
+
 }  // namespace
 }  // namespace gearlash::motion_allocation_test
