@@ -430,8 +430,9 @@ TEST(EnclosedReduction, ADelayNearAMultipleOfThePeriodHoldsItsNeighboursToo) {
   drive.motor.inertia = drive.load.inertia = 1.0;
   drive.sampling = Sampling{.period = 0.001, .delay = 0.003};
   const auto ages = [&] {
+    const EnclosedDrive enclosed(drive);
     std::vector<std::size_t> result;
-    for (const auto& held : EnclosedDrive(drive).held_torques()) result.push_back(held.age);
+    for (const auto& held : enclosed.held_torques()) result.push_back(held.age);
     return result;
   };
   EXPECT_EQ(ages(), (std::vector<std::size_t>{3}));
