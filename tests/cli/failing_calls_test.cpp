@@ -33,9 +33,10 @@ using Counts = std::array<std::uint64_t, kinds.size()>;
 struct Verb {
   std::vector<std::string> arguments;  ///< without the output, whose name follows the last one
   std::string output;
-  bool has_answer = false;      ///< on standard output, besides what names the file
-  std::string unfinished{};     ///< beginning of what may be left to be resumed
-  std::uint64_t sampled = 200;  ///< allocations after the first ones: fewer where a run takes long
+  bool has_answer = false;   ///< on standard output, besides what names the file
+  std::string unfinished{};  ///< beginning of what may be left to be resumed
+  std::uint64_t sampled =
+      200;  ///< allocations of the tool after the first: fewer where a run takes long
 };
 
 constexpr char joint[] = "examples/robot-joint.toml";
@@ -272,8 +273,9 @@ class Tries {
   }
 
   void try_allocations(const Verb& verb, const Runner& runner, std::size_t kind, const Run& whole) {
-    constexpr std::uint64_t first = 200;
-    const std::uint64_t sampled = verb.sampled;
+    const bool is_of_the_tool = kind == allocating;
+    const std::uint64_t first = is_of_the_tool ? 200 : 60;
+    const std::uint64_t sampled = is_of_the_tool ? verb.sampled : 60;
     std::minstd_rand draw(1);
     const std::uint64_t rest = whole.counts[kind] - first;
     for (std::uint64_t i = 1; i <= first + sampled; ++i) {
