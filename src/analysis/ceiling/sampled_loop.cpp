@@ -95,7 +95,6 @@ class SampledLoop : public DisturbedLoop {
   IntervalMatrix flow_;  ///< of the plant
   std::size_t last_reading_ = 0;
   std::size_t queue_ = 0;  ///< torques that wait, the newest first
-  std::size_t waiting_ = 0;
   std::size_t size_ = 0;
   Form asked_;              ///< torque worked out at the tick
   std::vector<Form> next_;  ///< all numbers at the next tick
