@@ -29,9 +29,12 @@ struct Settings {
   bool follows = false;
 };
 
-/// Ceilings hold for what damping of the faces cannot exceed: without it.
+/// Ceilings hold for what damping of the faces cannot exceed, and off the limits of torque and
+/// current: without them.
 Drive drive_of(std::uint64_t seed) {
   Drive drive = gearlash::oracle::random_drive(seed);
+  drive.motor.limit.reset();
+  drive.motor.current_limit.reset();
   if (auto* faces = std::get_if<gearlash::CompliantContact>(&drive.contact)) faces->damping = 0.0;
   return drive;
 }
