@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gearlash/input.hpp"
+#include "gearlash/parameter.hpp"
 #include "input/axis_text.hpp"
 #include "input/drive_file.hpp"
 #include "input/parameter_text.hpp"
