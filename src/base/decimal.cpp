@@ -48,6 +48,14 @@ std::string without_zeros_at_end(std::string digits) {
 
 }  // namespace
 
+Decimal shortest_decimal(double value) {
+  const std::string text = shortest_scientific_text(value);
+  const std::string digits = significant_digits(text);
+  if (digits.empty()) return {};  // 0
+  const int exponent = std::stoi(text.substr(text.find('e') + 1));
+  return {std::stoull(digits), exponent - static_cast<int>(digits.size()) + 1};
+}
+
 bool is_long_decimal(std::string_view text) {
   const std::string digits = significant_digits(text);
   if (digits.empty()) return false;  // 0

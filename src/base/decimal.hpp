@@ -1,6 +1,7 @@
 // Converts decimal numbers to doubles and back, independently of locale and standard library.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +20,18 @@ std::string shortest_text(double value);
 std::string shortest_scientific_text(double value);
 /// With so many significant digits, 1 to 17, as printf's %g.
 std::string rounded_text(double value, int digits);
+
+/// digits · 10^exponent.
+struct Decimal {
+  std::uint64_t digits = 0;
+  int exponent = 0;
+
+  bool operator==(const Decimal&) const = default;
+};
+
+/// What shortest_text() writes: at most 17 digits, the last of them not 0. Precondition: `value` is
+/// finite and not negative.
+Decimal shortest_decimal(double value);
 
 /// In twenty significant digits: "5.0000000000000000000e-01". is_long_decimal() holds of it.
 std::string long_text(double value);

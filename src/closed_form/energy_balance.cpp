@@ -3,7 +3,6 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <cstdlib>
-#include <string>
 
 #include "base/arithmetic.hpp"
 #include "base/decimal.hpp"
@@ -29,20 +28,10 @@ struct Sides {
 
 /// The shortest decimal that reads back as the number.
 Rational decimal(double value) {
-  std::string digits = shortest_scientific_text(value);
-  const std::size_t exponent_at = digits.find('e');
-  int power = std::atoi(digits.c_str() + exponent_at + 1);
-  digits.resize(exponent_at);
-  if (const std::size_t point = digits.find('.'); point != std::string::npos) {
-    power -= static_cast<int>(digits.size() - point - 1);
-    digits.erase(point, 1);
-  }
-  digits.erase(0,
-               std::min(digits.find_first_not_of('0'), digits.size() - 1));  // else read as octal
-  const Rational scale = boost::multiprecision::pow(boost::multiprecision::cpp_int(10),
-                                                    static_cast<unsigned>(std::abs(power)));
-  const Rational mantissa{boost::multiprecision::cpp_int(digits)};
-  return power < 0 ? Rational(mantissa / scale) : Rational(mantissa * scale);
+  using boost::multiprecision::cpp_int;
+  const auto [digits, exponent] = shortest_decimal(value);
+  const cpp_int scale = pow(cpp_int(10), static_cast<unsigned>(std::abs(exponent)));
+  return exponent < 0 ? Rational(digits, scale) : Rational(digits * scale);
 }
 
 bool is_dissipative_exactly(const NormalizedServo& servo, Reading reading) {

@@ -1,7 +1,6 @@
 #include "model/held_torques.hpp"
 
 #include <cstdint>
-#include <string>
 
 #include "base/decimal.hpp"
 #include "base/number.hpp"
@@ -9,37 +8,12 @@
 namespace gearlash {
 namespace {
 
-/// digits · 10^exponent.
-struct Decimal {
-  std::uint64_t digits = 0;
-  int exponent = 0;
-
-  bool operator==(const Decimal&) const = default;
-};
-
 Decimal without_last_zeros(Decimal decimal) {
   while (decimal.digits != 0 && decimal.digits % 10 == 0) {
     decimal.digits /= 10;
     ++decimal.exponent;
   }
   return decimal;
-}
-
-/// The shortest that reads back as a positive double: at most 17 digits.
-Decimal shortest_decimal(double value) {
-  const std::string text = shortest_scientific_text(value);
-  const std::size_t end = text.find('e');
-  Decimal decimal{0, std::stoi(text.substr(end + 1))};
-  bool is_fraction = false;
-  for (const char c : text.substr(0, end)) {
-    if (c == '.') {
-      is_fraction = true;
-      continue;
-    }
-    decimal.digits = 10 * decimal.digits + static_cast<std::uint64_t>(c - '0');
-    if (is_fraction) --decimal.exponent;
-  }
-  return without_last_zeros(decimal);
 }
 
 /// Of decimals that have at most 13 digits in seconds it is then the multiple: another one would be

@@ -38,6 +38,15 @@ TEST(Decimal, ALongOneIsNotTheShortestOfItsDouble) {
   }
 }
 
+TEST(Decimal, TheShortestIsDigitsTimesAPowerOfTen) {
+  EXPECT_EQ(shortest_decimal(0.0), (Decimal{0, 0}));
+  EXPECT_EQ(shortest_decimal(0.3), (Decimal{3, -1}));
+  EXPECT_EQ(shortest_decimal(1200.0), (Decimal{12, 2}));
+  EXPECT_EQ(shortest_decimal(0.1 + 0.2), (Decimal{30000000000000004, -17}));
+  EXPECT_EQ(shortest_decimal(5e-324), (Decimal{5, -324}));
+  EXPECT_EQ(shortest_decimal(1.7976931348623157e308), (Decimal{17976931348623157, 292}));
+}
+
 TEST(Decimal, LongTextsAreLongAndReadBack) {
   SeededDraws draws(4401);
   for (int i = 0; i < 2000; ++i) {
