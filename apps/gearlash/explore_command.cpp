@@ -4,11 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
-#include "gearlash/parameter.hpp"
 #include "input/section_reader.hpp"
 #include "input/text_file.hpp"
 #include "input/utf8.hpp"
 #include "machine_faults.hpp"
+#include "model/parameters.hpp"
 #include "output/drive_text.hpp"
 #include "output/output_file.hpp"
 #include "servo_options.hpp"
@@ -51,27 +51,29 @@ std::string escaped(std::string json) {
 }
 
 /// The tables that a drive names: contents by name, and settings by which the page finds those that
-/// stand in other folders.
+/// stand in other folders, or whose names are not UTF-8.
 struct Tables {
   nlohmann::ordered_json files = nlohmann::ordered_json::object();
   nlohmann::ordered_json settings = nlohmann::ordered_json::array();
 };
 
-/// A drive from standard input names them relative to the working folder.
-Tables tables_of(const Drive& drive, const std::string& file) {
+/// Names them as the page does. A drive from standard input names them relative to the working
+/// folder.
+Tables take_tables(Drive& drive, const std::string& file) {
   constexpr std::size_t largest_table = 64U * 1024U * 1024U;
   const fs::path folder = file == "-" ? fs::path() : fs::path(file).parent_path();
-  const nlohmann::ordered_json values = drive_json(drive);
   Tables tables;
-  for (const ParameterInfo& info : parameters_of(drive)) {
-    if (info.kind != ParameterKind::file) continue;
-    const std::string path(info.path);
-    const nlohmann::ordered_json& name = values[path];
-    if (!name.is_string() || name.get<std::string>().empty()) continue;
-    const fs::path written = name.get<std::string>();
-    const std::string base = written.filename().string();
+  for (const Parameter& parameter : all_parameters_of_drives()) {
+    const Slot slot = parameter.slot(drive);
+    auto* const* name = std::get_if<std::string*>(&slot);
+    if (name == nullptr || (*name)->empty()) continue;
+    const fs::path written = **name;
+    const std::string base = as_utf8(written.filename().string());
     tables.files[base] = as_utf8(read_text_file(folder / written, largest_table));
-    if (written != base) tables.settings.push_back(nlohmann::ordered_json::array({path, base}));
+    if (**name != base) {
+      tables.settings.push_back(nlohmann::ordered_json::array({parameter.path, base}));
+    }
+    **name = base;
   }
   return tables;
 }
@@ -83,19 +85,20 @@ bool has_number_options(const ServoOptions& options) {
 }
 
 /// The author's own text with the settings, so that the page shows both.
-nlohmann::ordered_json drive_of_page(const ServoOptions& options, const WrittenDrive& written) {
-  Tables tables = tables_of(written.drive, options.file);
+nlohmann::ordered_json drive_of_page(const ServoOptions& options, WrittenDrive written) {
+  Tables tables = take_tables(written.drive, options.file);
   if (options.file.empty() || options.file == "-" || has_number_options(options)) {
     return {{"toml", to_toml(TolerancedDrive{written.drive, written.tolerances})},
             {"name", "drive.toml"},
             {"settings", std::move(tables.settings)},
             {"files", std::move(tables.files)}};
   }
-  nlohmann::ordered_json settings = std::move(tables.settings);
+  nlohmann::ordered_json settings = nlohmann::ordered_json::array();
   for (const std::string& text : options.settings) {
     const Setting setting = read_setting(text);
-    settings.push_back(nlohmann::ordered_json::array({setting.path, setting.text}));
+    settings.push_back(nlohmann::ordered_json::array({setting.path, as_utf8(setting.text)}));
   }
+  for (nlohmann::ordered_json& table : tables.settings) settings.push_back(std::move(table));
   return {{"toml", read_text_file(options.file, largest_drive_file)},
           {"name", as_utf8(fs::path(options.file).filename().string())},
           {"settings", std::move(settings)},

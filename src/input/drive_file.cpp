@@ -44,6 +44,12 @@ void take_out(TomlDocument& document, const std::string& path) {
   }
 }
 
+/// Names of files are bytes of any kind.
+bool is_name_of_file(std::string_view path) {
+  const Parameter* parameter = find_parameter(path);
+  return parameter != nullptr && parameter->key() == "file";
+}
+
 /// Why no drive has the path of a setting, with the nearest known one; empty if one has.
 std::string why_unknown(const Setting& setting) {
   const bool is_without = setting.text == nothing && is_section(setting.path);
@@ -117,7 +123,6 @@ WrittenDrive parse_drive(std::string_view toml, std::string_view source_name,
 }
 
 Setting read_setting(const std::string& text) {
-  if (as_utf8(text) != text) refuse("--set", text, "must be UTF-8, as the text of a file is");
   const std::size_t sign = text.find('=');
   if (sign == std::string::npos) {
     refuse("--set", text, "must be PATH=VALUE, such as gearbox.ratio=50");
@@ -125,6 +130,9 @@ Setting read_setting(const std::string& text) {
   Setting setting{text.substr(0, sign), text.substr(sign + 1)};
   if (const std::string why = why_unknown(setting); !why.empty()) {
     refuse("--set", setting.path, why);
+  }
+  if (as_utf8(text) != text && !is_name_of_file(setting.path)) {
+    refuse("--set", text, "must be UTF-8, as the text of a file is");
   }
   return setting;
 }

@@ -94,7 +94,8 @@ TableSignal parse_signal_table(std::string_view text, const std::string& name,
 }
 
 TableSignal read_signal_table(const std::filesystem::path& path, const Dimension& values) {
-  return parse_signal_table(read_text_file(path, largest_table), path.string(), values);
+  return parse_signal_table(read_text_file(path, largest_table),
+                            shown(path.string(), std::string_view::npos), values);
 }
 
 }  // namespace gearlash

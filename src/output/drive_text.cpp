@@ -9,6 +9,7 @@
 #include "base/decimal.hpp"
 #include "base/range_check.hpp"
 #include "general/assemble/time_scale.hpp"
+#include "input/utf8.hpp"
 #include "model/firmware.hpp"
 #include "model/gains.hpp"
 #include "model/parameters.hpp"
@@ -21,7 +22,7 @@ namespace {
 
 std::string toml_text(std::string_view text) {
   // TOML's basic strings have JSON's escapes.
-  return Json(std::string(text)).dump();
+  return Json(as_utf8(text)).dump();
 }
 
 /// How numbers are written: the shortest decimals, or with digits by which readers see that they
@@ -133,7 +134,7 @@ Json value_json(const Parameter& parameter, const Drive& drive) {
   if (auto* const* list = std::get_if<std::vector<double>*>(&slot)) return **list;
   if (auto* const* rows = std::get_if<Rows*>(&slot)) return **rows;
   if (auto* const* text = std::get_if<std::string*>(&slot)) {
-    return (*text)->empty() ? Json(nullptr) : Json(**text);
+    return (*text)->empty() ? Json(nullptr) : Json(as_utf8(**text));
   }
   const std::optional<double> number = number_in(parameter, drive);
   return number ? json_number(*number) : Json(nullptr);
@@ -169,8 +170,18 @@ bool follows(const Parameter& parameter, const Drive& drive) {
   return given != nullptr && !**given;
 }
 
+/// A drive whose tables TOML can name. One that it cannot, whose name is not UTF-8, is written with
+/// its points.
+Drive with_writable_tables(Drive drive) {
+  for (std::optional<Signal>* signal : {&drive.reference, &drive.load_torque}) {
+    auto* table = *signal ? std::get_if<TableSignal>(&**signal) : nullptr;
+    if (table != nullptr && as_utf8(table->file) != table->file) table->file.clear();
+  }
+  return drive;
+}
+
 std::string toml_of(const TolerancedDrive& toleranced, Followers followers) {
-  const Drive& drive = toleranced.nominal;
+  const Drive drive = with_writable_tables(toleranced.nominal);
   std::string text;
   std::string_view section;
   for (const Parameter& parameter : all_parameters_of_drives()) {

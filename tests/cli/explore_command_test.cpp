@@ -86,6 +86,27 @@ TEST_F(ExploreCommand, BytesThatAreNotUtf8AreReadAsLatin1) {
   EXPECT_EQ(drive()["name"], "café.toml");
 }
 
+TEST_F(ExploreCommand, TablesOfSettingsAreFoundByTheirNamesOnThePage) {
+  fs::create_directory(folder_ / "sub");
+  const std::string sheet = (fs::path(GEARLASH_SOURCE_DIRECTORY) / "examples/first-servo.toml");
+  for (const char* name : {"sub/steps.csv", "sub/caf\xE9.csv", "caf\xE9.csv"}) {
+    const std::string table = (folder_ / name).string();
+    std::ofstream(table) << "time (s), position (rad)\n0, 0\n1, 0.2\n";
+    const std::string set =
+        " --set reference.kind=table --set " + test::quoted("reference.file=" + table);
+    const std::string base = fs::path(name).filename() == "steps.csv" ? "steps.csv" : "café.csv";
+    for (const std::string& file : {sheet + set, "- <" + sheet + set}) {
+      const Outcome run = explore(file);
+      ASSERT_EQ(run.status, 0) << run.err;
+      EXPECT_EQ(drive()["files"].size(), 1U);
+      ASSERT_TRUE(drive()["files"].contains(base)) << drive().dump();
+      const nlohmann::json last = drive()["settings"].back();
+      EXPECT_EQ(last, (nlohmann::json{"reference.file", base}));
+    }
+    EXPECT_THAT(drive()["toml"].get<std::string>(), HasSubstr("file = \"" + base + "\""));
+  }
+}
+
 TEST_F(ExploreCommand, TextOfTheDriveCannotEndItsElement) {
   std::ofstream(folder_ / "sly.toml")
       << "# </script><b>\n"

@@ -101,9 +101,12 @@ TEST(Settings, OfNoParameterAreRefusedWithTheNearest) {
 }
 
 TEST(Settings, AreUtf8AsTheTextOfAFileIs) {
-  EXPECT_THAT(test::faults_of([] { read_setting("reference.file=t\xE9.csv"); }),
-              testing::ElementsAre(HasSubstr("reference.file=t\\xe9.csv: must be UTF-8")));
+  EXPECT_THAT(test::faults_of([] { read_setting("reference.kind=t\xE9"); }),
+              testing::ElementsAre(HasSubstr("reference.kind=t\\xe9: must be UTF-8")));
   EXPECT_EQ(read_setting("reference.file=té.csv").text, "té.csv");
+  // Names of files are bytes.
+  EXPECT_EQ(read_setting("reference.file=t\xE9.csv").text, "t\xE9.csv");
+  EXPECT_EQ(read_setting("load_torque.file=\xFF").text, "\xFF");
 }
 
 TEST(Settings, OfAProgramAreRefusedByTheirPath) {
