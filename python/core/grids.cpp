@@ -134,6 +134,12 @@ void add_grids(py::module_& module) {
   module.def("read_axis", [](const std::string& path, const std::string& values, py::handle drive) {
     return to_python(read_axis({path, path, values}, drive_of(drive)));
   });
+  module.def("drive_of_axes",
+             [](py::handle drive, const std::vector<std::pair<std::string, std::string>>& axes) {
+               std::vector<AxisText> texts;
+               for (const auto& [path, values] : axes) texts.push_back({path, path, values});
+               return drive_to_python(drive_of_axes(drive_of(drive), texts));
+             });
 }
 
 }  // namespace gearlash::python

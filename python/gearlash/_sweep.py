@@ -56,7 +56,9 @@ def axis(drive: Drive, path: str, values: AxisLike) -> Axis:
     path : str
         Of a number or a word of the drive.
     values : Axis, str, array or sequence of str
-        An axis; ``"FROM:TO:COUNT[:log]"`` or ``"A,B,C"`` with units; numbers in SI; or words.
+        An axis; ``"FROM:TO:COUNT[:log]"`` or ``"A,B,C"`` with units; numbers in SI; or words. An
+        axis has doubles. That a text had a decimal with more digits, :func:`sweep` and proofs know
+        only where the text is given to :func:`sweep` itself.
 
     Raises
     ------
@@ -67,16 +69,35 @@ def axis(drive: Drive, path: str, values: AxisLike) -> Axis:
         if values.path != path:
             raise ValueError(f"{path} must have an axis of its own, not one of {values.path}")
         return values
-    if isinstance(values, str):
-        return _core.read_axis(path, values, drive)
-    words = np.asarray(values)
-    if words.dtype.kind in "US":
-        return _core.read_axis(path, ",".join(str(word) for word in words.ravel().tolist()), drive)
+    written = _text_of(values)
+    if written is not None:
+        return _core.read_axis(path, written, drive)
     array = np.atleast_1d(_numbers(path, values))
     if array.ndim != 1:
         raise ValueError(f"{path} must have one dimension on an axis, not {array.ndim}; "
                          "give arrays that are broadcast as arrays=…")
     return Axis(path=_path_of_number(drive, path), values=array)
+
+
+def _text_of(values: AxisLike) -> str | None:
+    """Values that are text, as an option of the tool has them; None for numbers."""
+    if isinstance(values, str):
+        return values
+    words = np.asarray(values) if not isinstance(values, Axis) else np.empty(0)
+    return ",".join(map(str, words.ravel().tolist())) if words.dtype.kind in "US" else None
+
+
+def grid_of(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis]) -> tuple[Drive, list[Axis]]:
+    """Give the drive that the axes vary, and the axes.
+
+    The drive's numbers count as rounded where a text has a decimal with more digits than a double.
+    """
+    if not isinstance(axes, Mapping):
+        return drive, listed("axes", axes)
+    made = [axis(drive, path, values) for path, values in mapping("axes", axes).items()]
+    written = [(path, text) for path, text in
+               ((path, _text_of(values)) for path, values in axes.items()) if text is not None]
+    return _core.drive_of_axes(drive, written), made
 
 
 def _path_of_number(drive: Drive, path: str) -> str:
@@ -127,7 +148,8 @@ def sweep(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis] | None = N
     drive : Drive
     axes : mapping of path to values, or sequence of Axis
         Every combination of the values is answered; the last axis runs fastest. Values are those of
-        :func:`axis`.
+        :func:`axis`. A decimal with more digits than a double makes the drive one whose numbers are
+        rounded, as in files.
     quantities : sequence of str
         Names of :func:`gearlash.quantities`.
     arrays : mapping of path to array
@@ -178,14 +200,13 @@ def sweep(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis] | None = N
             raise TypeError("proved and client need axes")
         return _sweep_arrays(drive, arrays, texts("quantities", quantities), progress)
     asked = texts("quantities", quantities)
-    grid = ([axis(drive, path, values) for path, values in mapping("axes", axes).items()]
-            if isinstance(axes, Mapping) else listed("axes", axes or ()))
+    varied, grid = grid_of(drive, axes or ())
     if client is not None:
         from gearlash import distributed
 
-        return distributed.sweep(drive, grid, asked, client, proved=proved, progress=progress)
-    verdicts, columns = _core.evaluate_grid(drive, grid, asked, truth("proved", proved), progress)
-    return dataset(drive, grid, verdicts, columns, proved=proved)
+        return distributed.sweep(varied, grid, asked, client, proved=proved, progress=progress)
+    verdicts, columns = _core.evaluate_grid(varied, grid, asked, truth("proved", proved), progress)
+    return dataset(varied, grid, verdicts, columns, proved=proved)
 
 
 def _sweep_arrays(drive: Drive, arrays: Mapping[str, ArrayLike], quantities: list[str],

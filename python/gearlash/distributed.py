@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 
 from gearlash import _core
 from gearlash._analysis import Progress
-from gearlash._arguments import listed, texts
+from gearlash._arguments import texts
 from gearlash._drive import Drive
 from gearlash._records import (Axis, SamplePlan, StudyQuestions, TolerancedDrive,
                                ToleranceStudy)
-from gearlash._sweep import AxisLike, axis, dataset
+from gearlash._sweep import AxisLike, dataset, grid_of
 
 if TYPE_CHECKING:
     import xarray
@@ -83,14 +83,9 @@ def graph(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis], quantitie
     from dask.delayed import delayed
 
     one = delayed(_evaluate, pure=True)
-    return [one(drive, piece, tuple(texts("quantities", quantities)), proved)
-            for piece in pieces(_listed(drive, axes), most)]
-
-
-def _listed(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis]) -> list[Axis]:
-    if isinstance(axes, Mapping):
-        return [axis(drive, path, values) for path, values in axes.items()]
-    return listed("axes", axes)
+    varied, grid = grid_of(drive, axes)
+    return [one(varied, piece, tuple(texts("quantities", quantities)), proved)
+            for piece in pieces(grid, most)]
 
 
 def sweep(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis],
@@ -117,18 +112,18 @@ def sweep(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis],
     xarray.Dataset or Table
         Equal to that of :func:`gearlash.sweep` to the bit.
     """
-    grid = _listed(drive, axes)
-    _core.check_grid(drive, grid, texts("quantities", quantities))  # before anything is sent
+    varied, grid = grid_of(drive, axes)
+    _core.check_grid(varied, grid, texts("quantities", quantities))  # before anything is sent
     if most is None:
-        is_closed = _core.is_closed_grid(drive, grid)
+        is_closed = _core.is_closed_grid(varied, grid)
         line = len(grid[-1].values) if len(grid) > 1 else RUN
         most = 65_536 if is_closed else line
     tasks = pieces(grid, most)
-    calls = [(drive, piece, tuple(quantities), proved) for piece in tasks]
+    calls = [(varied, piece, tuple(quantities), proved) for piece in tasks]
     parts: list[_Piece] = _dealt_out(client, _evaluate, calls, progress)
     verdicts = np.concatenate([part[0] for part in parts])
     columns = {name: np.concatenate([part[1][name] for part in parts]) for name in parts[0][1]}
-    return dataset(drive, grid, verdicts, columns, proved=proved)
+    return dataset(varied, grid, verdicts, columns, proved=proved)
 
 
 def study(series: TolerancedDrive, sampling: SamplePlan, questions: StudyQuestions, client: Any, *,

@@ -18,6 +18,26 @@ def test_axes_give_the_grid(servo):
     assert gearlash.verdict_words(data)[0, 1] == "hunts"
 
 
+def test_a_decimal_that_is_no_double_is_rounded_as_on_the_axes_of_the_tool(tool, tmp_path):
+    edge = gearlash.Drive.normal_form(0.5, 2, 0.5, 0.3)
+    for values in ("0.19", [0.19], "0.1:0.4:4", ["0.19", "1/4"]):
+        assert gearlash._sweep.grid_of(edge, {"servo.damping": values})[0] == edge
+    for values in ("0.1900000000000000000001,0.2", ["0.1900000000000000000001"], "1/3"):
+        varied, axes = gearlash._sweep.grid_of(edge, {"damping": values})
+        assert "rounded-numbers" in [note.code for note in gearlash.analyse(varied).notes]
+        assert [one.path for one in axes] == ["servo.damping"]
+    # Only without any friction of the motor it is a theorem that it hunts.
+    words = {}
+    for end in ("1", "0.99999999999999999999"):
+        data = gearlash.sweep(edge, {"servo.friction_ratio": f"0.5,{end}"}, proved=True)
+        words[end] = gearlash.verdict_words(data).tolist()
+        tool("chart", "--damping", "0.5", "--inertia-ratio", "2", "--backlash", "0.3", "--x",
+             f"friction_ratio=0.5,{end}", "--proved", "--output", tmp_path / "chart.csv")
+        told = pandas.read_csv(tmp_path / "chart.csv", comment="#")["verdict"].tolist()
+        assert told == words[end]
+    assert words["1"][1] == "hunts" and words["0.99999999999999999999"][1] == "undecided"
+
+
 def test_arrays_are_broadcast_and_equal_the_grid_to_the_bit(servo):
     dampings, ratios = np.linspace(0.05, 0.6, 40), np.geomspace(0.1, 10, 30)
     grid = gearlash.sweep(servo, {"servo.damping": dampings, "servo.inertia_ratio": ratios},
