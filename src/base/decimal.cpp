@@ -66,6 +66,28 @@ bool is_long_decimal(std::string_view text) {
   return without_zeros_at_end(digits) != without_zeros_at_end(shortest);
 }
 
+namespace {
+
+/// The power of ten of the first digit that is not 0. Precondition: there is one.
+int leading_power(std::string_view text) {
+  const std::size_t e = std::min(text.find_first_of("eE"), text.size());
+  const std::string_view digits = text.substr(0, e);
+  const auto point = static_cast<int>(std::min(digits.find('.'), digits.size()));
+  const auto first = static_cast<int>(digits.find_first_of("123456789"));
+  const int exponent = e == text.size() ? 0 : std::stoi(std::string(text.substr(e + 1)));
+  return exponent + (first < point ? point - first - 1 : point - first);
+}
+
+}  // namespace
+
+bool is_above(std::string_view one, std::string_view other, int power) {
+  const std::string digits = without_zeros_at_end(significant_digits(one));
+  const std::string other_digits = without_zeros_at_end(significant_digits(other));
+  if (digits.empty() || other_digits.empty()) return !digits.empty();
+  const int excess = leading_power(one) - leading_power(other) - power;
+  return excess != 0 ? excess > 0 : digits > other_digits;
+}
+
 bool is_short_decimal(double value) {
   constexpr int most_decimals = 15;
   double scale = 1.0;

@@ -41,6 +41,10 @@ std::string long_text(double value);
 /// included. Precondition: `text` is such a number.
 bool is_long_decimal(std::string_view text);
 
+/// Whether one decimal number is above another one times 10^power, exactly. Precondition: the texts
+/// are such numbers, and not negative.
+bool is_above(std::string_view one, std::string_view other, int power = 0);
+
 /// Whether a double is itself a decimal of at most fifteen digits after the point.
 bool is_short_decimal(double value);
 

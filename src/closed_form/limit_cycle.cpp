@@ -140,15 +140,15 @@ LimitCycleAnalysis analyse_limit_cycles(const NormalizedServo& servo) {
 
 LimitCycleAnalysis enclose_limit_cycles(const NormalizedServo& servo, const ServoBox& box) {
   require_none(validate(servo));
-  return enclosed(servo, box, is_dissipative(box));
+  LimitCycleAnalysis analysis = enclosed(servo, box, is_dissipative(box));
+  analysis.rests_engaged = box.damping.high >= 1.0;
+  return analysis;
 }
 
 LimitCycleAnalysis enclose_limit_cycles(const NormalizedServo& servo, Reading reading) {
+  if (reading == Reading::converted) return enclose_limit_cycles(servo, box_of(servo, reading));
   require_none(validate(servo));
-  const ServoBox box = box_of(servo, reading);
-  const bool dissipative =
-      reading == Reading::converted ? is_dissipative(box) : is_dissipative(servo, reading);
-  return enclosed(servo, box, dissipative);
+  return enclosed(servo, box_of(servo, reading), is_dissipative(servo, reading));
 }
 
 const LimitCycle* largest_stable(const LimitCycleAnalysis& analysis) {

@@ -53,9 +53,9 @@ struct LimitCycleAnalysis {
   /// Whether no restitution can make it hunt: 1/c + 1/D ≤ 2ζ, decided exactly for the given numbers
   /// (docs/explanation/absence-by-energy.md).
   bool is_dissipative = false;
-  /// Whether some motions end at rest with the faces together, on either: ζ ≥ 1. Such a servo has
-  /// rest beside its limit cycle: small motion in the gap grows, and a large one ends with the
-  /// faces together (docs/explanation/servo.md, One cycle or none).
+  /// Whether some motions may end at rest with the faces together, on either: ζ ≥ 1, of a box for
+  /// some ζ in it. Such a servo has rest beside its limit cycle: small motion in the gap grows, and
+  /// a large one ends with the faces together (docs/explanation/servo.md, One cycle or none).
   bool rests_engaged = false;
   /// Whether some cycles could not be separated from their neighbours, because their multiplier is
   /// 1 to within rounding (on a boundary in the parameters, or ζ below 1e-9). They are not listed.

@@ -35,7 +35,9 @@ double read_value(const AxisText& axis, const std::string& path, const Parameter
   if (!parameter.choices.empty()) {
     return static_cast<double>(choice_of(parameter, axis.field, text));
   }
-  if (text.empty() || parameter.dimension(drive) == nullptr) return read_number(axis.field, text);
+  if (text.empty() || parameter.dimension(drive) == nullptr) {
+    return number_text(parameter)(axis.field, text);
+  }
   if (const auto number = bare_number(text)) return *number;  // in SI
   try {
     return number_of(parameter, drive, path, text);

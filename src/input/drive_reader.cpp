@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "analysis/design/distribution.hpp"
+#include "input/parameter_text.hpp"
 #include "input/robot_form.hpp"
 #include "input/signal_reader.hpp"
 #include "input/units.hpp"
@@ -390,9 +391,7 @@ class DriveReader {
       return read_inverse(section, key.name, *key.form);
     }
     if (dimension == nullptr) {
-      const std::string wanted = wanted_text(parameter);
-      return parameter.permitted == Permitted::share ? section.share(key.name, wanted)
-                                                     : section.number(key.name, wanted);
+      return section.number(key.name, wanted_text(parameter), number_text(parameter));
     }
     const OtherForm* inverse = inverse_form(parameter);
     if (inverse != nullptr && !section.is_of(key.name, *dimension) &&

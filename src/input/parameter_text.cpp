@@ -5,7 +5,6 @@
 #include "gearlash/parameter.hpp"
 #include "input/section_reader.hpp"
 #include "input/toml_document.hpp"
-#include "input/units.hpp"
 #include "model/parameter_values.hpp"
 
 namespace gearlash {
@@ -44,12 +43,16 @@ Rows rows_of(std::string_view path, const toml::array& array) {
 
 }  // namespace
 
+NumberText number_text(const Parameter& parameter) {
+  if (parameter.permitted == Permitted::share) return read_share;
+  return parameter.path == "servo.friction_ratio" ? read_part : read_number;
+}
+
 double number_of(const Parameter& parameter, const Drive& drive, std::string_view path,
                  std::string_view text) {
   const Dimension* dimension = parameter.dimension(drive);
   if (dimension == nullptr || path.find('[') != std::string_view::npos) {
-    return parameter.permitted == Permitted::share ? read_share(path, text)
-                                                   : read_number(path, text);
+    return number_text(parameter)(path, text);
   }
   const OtherForm* inverse = inverse_form(parameter, path);
   if (inverse != nullptr && inverse->path == path) return to_si(path, text, *inverse->dimension);

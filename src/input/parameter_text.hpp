@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "input/units.hpp"
 #include "model/parameters.hpp"
 
 namespace gearlash {
@@ -11,6 +12,9 @@ namespace gearlash {
 /// text that is not a number in the parameter's dimension.
 double number_of(const Parameter& parameter, const Drive& drive, std::string_view path,
                  std::string_view text);
+
+/// How its text is read if it has no unit: read_number(), or what knows where its range ends.
+NumberText number_text(const Parameter& parameter);
 
 /// The index of a word among the parameter's choices. Throws InvalidInput, naming the path, for any
 /// other word.

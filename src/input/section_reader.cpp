@@ -150,14 +150,10 @@ std::optional<Measured> SectionReader::optional_quantity(const std::string& key,
   return read(key, *value, expected);
 }
 
-double SectionReader::number(const std::string& key, const std::string& permitted) {
+double SectionReader::number(const std::string& key, const std::string& permitted,
+                             NumberText read_text) {
   const toml::node* value = require(key, "must be " + permitted);
-  return value != nullptr ? read(key, *value, read_number) : placeholder_number;
-}
-
-double SectionReader::share(const std::string& key, const std::string& permitted) {
-  const toml::node* value = require(key, "must be " + permitted);
-  return value != nullptr ? read(key, *value, read_share) : placeholder_number;
+  return value != nullptr ? read(key, *value, read_text) : placeholder_number;
 }
 
 std::optional<std::string> SectionReader::choice(const std::string& key,
@@ -320,6 +316,9 @@ Measured SectionReader::read(const std::string& key, const toml::node& value,
 
 double SectionReader::read(const std::string& key, const toml::node& value, NumberText read_text) {
   const auto read_exact = [&](const std::string& name, const toml::node& node) -> Measured {
+    if (node.is_floating_point() && document_.is_long(node)) {
+      return {.si = read_text(name, document_.number_text(node))};
+    }
     return {.si = exact_number(name, node, read_text)};
   };
   return read(key, value, read_exact, placeholder_number).si;

@@ -81,9 +81,8 @@ class SectionReader {
   std::optional<Measured> optional_quantity(const std::string& key, const Dimension& expected);
   /// A number without unit: a TOML number, or text (a fraction). `permitted` describes the number
   /// in the fault of a missing key.
-  double number(const std::string& key, const std::string& permitted);
-  /// number() of a share, which may be in percent.
-  double share(const std::string& key, const std::string& permitted);
+  double number(const std::string& key, const std::string& permitted,
+                NumberText read_text = read_number);
   /// One of `choices`. Anything else is recorded as a fault and gives nothing; a missing key is a
   /// fault if `required`.
   std::optional<std::string> choice(const std::string& key, const std::vector<std::string>& choices,
@@ -112,8 +111,6 @@ class SectionReader {
   Place place() const;
 
  private:
-  /// Reads the text of a number without unit; as read_number().
-  using NumberText = double (*)(std::string_view field, std::string_view text);
   const toml::node* find(const std::string& key);
   const toml::node* require(const std::string& key, const std::string& permitted);
   Measured read(const std::string& key, const toml::node& value, const Dimension& expected);

@@ -258,6 +258,12 @@ std::string_view TomlDocument::source_of(const toml::node& node) const {
   return columns(source.begin.line, source.begin.column, source.end.column);
 }
 
+std::string TomlDocument::number_text(const toml::node& node) const {
+  std::string text(source_of(node));
+  std::erase(text, '_');
+  return text;
+}
+
 bool TomlDocument::is_long(const toml::node& node) const {
   const auto is_long_node = [&](const toml::node& other) { return is_long(other); };
   if (const toml::table* table = node.as_table()) {

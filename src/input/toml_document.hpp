@@ -41,15 +41,19 @@ class TomlDocument {
   /// value; fit for one line.
   std::string written(const toml::node& node) const;
 
-  /// Whether a number among the values of a section, in its lists, tables and texts, may be another
-  /// one than its double stands for: has_long_decimal().
+  /// Whether a value has a number, in its lists, tables and texts, that may be another one than its
+  /// double stands for: has_long_decimal().
+  bool is_long(const toml::node& node) const;
+  /// The same of the values of a section.
   bool has_long_decimals(std::string_view section) const;
-  /// The same of one key, "section.key".
+  /// The same of one key, "section.key", also if it was set.
   bool has_long_decimal_at(std::string_view path) const;
+
+  /// The text of a number that has a place in the text, without underscores.
+  std::string number_text(const toml::node& node) const;
 
  private:
   void require_doubles(const toml::node& node) const;
-  bool is_long(const toml::node& node) const;
   std::string_view source_of(const toml::node& node) const;
   std::string_view line(std::size_t number) const;
   /// The characters of a line from column `begin` to before `end`.

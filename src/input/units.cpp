@@ -109,6 +109,22 @@ bool is_inexact_fraction(std::string_view text) {
          std::fma(quotient, *below, -*above) != 0.0;
 }
 
+std::string_view without_sign(std::string_view text) {
+  if (text.starts_with('+') || text.starts_with('-')) text.remove_prefix(1);
+  return text;
+}
+
+/// The value of a number or a fraction over 10^power. It is above 1 if these are, also where their
+/// double is 1.
+double not_down_to_one(double value, std::string_view text, int power) {
+  if (value != 1.0) return value;
+  const std::size_t slash = text.find_first_of("/:");
+  const std::string_view above = without_sign(trimmed(text.substr(0, slash)));
+  const std::string_view below =
+      slash == std::string_view::npos ? "1" : without_sign(trimmed(text.substr(slash + 1)));
+  return is_above(above, below, power) ? std::nextafter(1.0, 2.0) : 1.0;
+}
+
 }  // namespace
 
 Measured read_quantity(std::string_view field, std::string_view text, const Dimension& expected) {
@@ -183,11 +199,16 @@ double read_number(std::string_view field, std::string_view text) {
   return value + 0.0;
 }
 
+double read_part(std::string_view field, std::string_view text) {
+  return not_down_to_one(read_number(field, text), text, 0);
+}
+
 double read_share(std::string_view field, std::string_view text) {
   const std::string_view trimmed_text = trimmed(text);
-  if (!trimmed_text.ends_with('%')) return read_number(field, text);
+  if (!trimmed_text.ends_with('%')) return read_part(field, text);
   constexpr double percent = 100.0;
-  return read_number(field, trimmed_text.substr(0, trimmed_text.size() - 1)) / percent;
+  const std::string_view number = trimmed_text.substr(0, trimmed_text.size() - 1);
+  return not_down_to_one(read_number(field, number) / percent, number, 2);
 }
 
 std::optional<double> bare_number(std::string_view text) {

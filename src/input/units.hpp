@@ -40,7 +40,13 @@ double to_si(std::string_view field, std::string_view text, const Dimension& exp
 /// 1e999, 1/0).
 double read_number(std::string_view field, std::string_view text);
 
-/// read_number() of a share, which may be in percent: "0.72", "72 %".
+/// Reads the text of a number without unit, as read_number() does.
+using NumberText = double (*)(std::string_view field, std::string_view text);
+
+/// read_number() of one that must not exceed 1: above 1, however little, it is not read as 1.
+double read_part(std::string_view field, std::string_view text);
+
+/// read_part() of a share, which may be in percent: "0.72", "72 %".
 double read_share(std::string_view field, std::string_view text);
 
 /// read_number(), but nothing for text that is not a number or has a unit.

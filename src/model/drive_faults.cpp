@@ -122,12 +122,13 @@ bool must_be_a_servo(const Drive& drive, const drive::ReducedDrive& reduced) {
          reduced.backlash == 0.0;
 }
 
-/// Whether a controller receives nothing but the error, and a speed.
+/// Whether a controller receives nothing but the error, and a speed. That two rounded numbers are
+/// opposite is not known.
 bool acts_on_error(const Drive& drive) {
   const auto* system = std::get_if<StateSpaceController>(&drive.controller.law);
   if (system == nullptr) return true;
-  const auto is_of_error = [](const std::vector<double>& row) {
-    return row.size() != 3 || row[0] == -row[1];
+  const auto is_of_error = [&](const std::vector<double>& row) {
+    return row.size() != 3 || (row[0] == -row[1] && (!drive.is_rounded || row[0] == 0.0));
   };
   return is_of_error(system->D) && std::all_of(system->B.begin(), system->B.end(), is_of_error);
 }

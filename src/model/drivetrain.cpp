@@ -15,8 +15,9 @@ std::vector<Fault> validate_masses_and_stiffness(const Drivetrain& drivetrain) {
   check.not_negative("load_friction", drivetrain.load_friction, "N m s/rad");
   check.positive("stiffness", drivetrain.stiffness, "N m/rad");
   if (drivetrain.motor_inertia == 0.0 && drivetrain.load_inertia == 0.0) {
-    check.refuse("load_inertia", "0 kg m2",
-                 "must be positive if motor_inertia is 0: one shaft must have inertia");
+    check.refuse(
+        "load_inertia", "0 kg m2",
+        "must be positive where motor and gearbox have no inertia: one shaft must have some");
   }
   if (check.faults().empty() && std::isinf(drivetrain.motor_inertia + drivetrain.load_inertia)) {
     check.refuse("load_inertia", exact_text(drivetrain.load_inertia) + " kg m2",

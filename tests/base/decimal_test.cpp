@@ -47,6 +47,22 @@ TEST(Decimal, TheShortestIsDigitsTimesAPowerOfTen) {
   EXPECT_EQ(shortest_decimal(1.7976931348623157e308), (Decimal{17976931348623157, 292}));
 }
 
+TEST(Decimal, OneIsAboveAnotherExactly) {
+  for (const char* text : {"1.00000000000000000000000001", "2", "1.1e0", "0.11e1", "12e-1", "9e0",
+                           "100000000000000000000000001e-26"}) {
+    EXPECT_TRUE(is_above(text, "1")) << text;
+    EXPECT_FALSE(is_above("1", text)) << text;
+  }
+  for (const char* text : {"1", "1.000", "0.99999999999999999999999", "0", "0.0", "10e-1", "9e-1",
+                           "0.0001e4", "99999999999999999999999999e-26"}) {
+    EXPECT_FALSE(is_above(text, "1")) << text;
+  }
+  EXPECT_TRUE(is_above("100.0000000000000000000001", "1", 2));
+  EXPECT_FALSE(is_above("100", "1", 2));
+  EXPECT_TRUE(is_above("1", "0"));
+  EXPECT_FALSE(is_above("0", "0"));
+}
+
 TEST(Decimal, LongTextsAreLongAndReadBack) {
   SeededDraws draws(4401);
   for (int i = 0; i < 2000; ++i) {

@@ -435,7 +435,8 @@ TEST(ServoFileRefusal, WhatOnlyTheWholeSheetShows) {
   const std::string no_inertia =
       replaced(replaced(sample, "0.61 oz in2", "0 kg m2"), "16.4e-6 slug ft2", "0 kg m2");
   EXPECT_THAT(refusals(no_inertia),
-              ElementsAre(StartsWith("s.toml:12:11: load.inertia = 0 kg m2: must be positive ")));
+              ElementsAre(StartsWith("s.toml:12:11: load.inertia = 0 kg m2: must be positive where "
+                                     "motor and gearbox have no inertia")));
   EXPECT_THAT(refusals(replaced(sample, "10 V/rad", "1e-300 V/rad")),
               ElementsAre(StartsWith("s.toml:1:1: damping = ")));
   // Not told while a value is unknown that might have made it good.

@@ -64,6 +64,39 @@ TEST(LongDecimals, ANumberBelowAllDoublesIsNotZero) {
                InvalidInput);
 }
 
+// What is proved of every restitution up to 1 would be said of one above it.
+TEST(LongDecimals, ANumberAboveOneIsNotOne) {
+  const auto with = [](const std::string& friction, const std::string& restitution) {
+    return parse_drive("[servo]\ndamping = 0.5\ninertia_ratio = 2\nfriction_ratio = " + friction +
+                       "\nbacklash = '0.3 rad'\n[contact]\nrestitution = " + restitution + "\n");
+  };
+  for (const char* above :
+       {"1.00000000000000000001", "'1.00000000000000000001'", "+1.000_000_1",
+        "'1.00000000000000000001/1'", "'3:2.9999999999999999999999'",
+        "100000000000000000000001e-23", "{ value = 0.5, min = 0, max = 1.00000000000000000001 }"}) {
+    EXPECT_THROW(with("0.1", above), InvalidInput) << above;
+    EXPECT_THROW(with(above, "0"), InvalidInput) << above;
+  }
+  EXPECT_THROW(with("0.1", "'100.00000000000000000001 %'"), InvalidInput);
+  for (const char* one : {"1", "1.0", "1.00000000000000000000000", "'100 %'", "'100.0 %'", "'3/3'",
+                          "0.99999999999999999999", "'2.9999999999999999999999:3'"}) {
+    const Drive drive = with("0.1", one);
+    EXPECT_EQ(std::get<RigidContact>(drive.contact).restitution, 1.0) << one;
+  }
+  EXPECT_EQ(with("1.000000000000000000000", "0").servo->friction_ratio, 1.0);
+  const auto set_to = [](const char* path, const std::string& text) {
+    Drive drive = normal_form(0.5, 2.0, 0.1);
+    set(drive, path, std::string_view(text));
+    return faults(drive);
+  };
+  for (const char* path : {"contact.restitution", "servo.friction_ratio"}) {
+    EXPECT_FALSE(set_to(path, "1.00000000000000000001").empty());
+    EXPECT_TRUE(set_to(path, "1.000").empty());
+    EXPECT_THROW(read_axis({"--x", path, "0.5,1.00000000000000000001"}, normal_form(0.5, 2.0, 0.1)),
+                 InvalidInput);
+  }
+}
+
 TEST(LongDecimals, AreSeenInSettings) {
   const auto with = [](const std::string& path, const std::string& value) {
     return parse_drive(servo_with("0.19"), "s.toml", {}, {{path, value}}).drive.is_rounded;
@@ -111,6 +144,12 @@ TEST(LongDecimals, MatterInListsOfControllersAlone) {
   EXPECT_TRUE(rounded("[20.5, -20.500000000000000000001, 0]"));
   const Drive drive = parse_drive(sheet_with("[20.5, -20.500000000000000000001, 0]"));
   EXPECT_TRUE(reduce(drive).has_rounded_lists);
+  // Nor is that the controller acts on the error alone.
+  const auto with_dead_band = [](const std::string& direct) {
+    return parse_drive(sheet_with(direct) + "dead_band = '1 mrad'\n");
+  };
+  EXPECT_NO_THROW(with_dead_band("[20.5, -20.5, 0]"));
+  EXPECT_THROW(with_dead_band("[20.5, -20.500000000000000000001, 0]"), InvalidInput);
   // No state is seen: it would be proportional, were k and −k known to be equal.
   const auto is_servo = [](const std::string& direct) {
     std::string text = sheet_with(direct);

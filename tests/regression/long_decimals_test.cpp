@@ -44,6 +44,15 @@ TEST(RegressionLongDecimals, AShaftWithLittleFrictionIsNotOneWithout) {
   EXPECT_LT(answer_of("0.5", "2", "0.99999999999999999999").certainty, Certainty::theorem);
 }
 
+// From critical damping on some motions end with the faces together.
+TEST(RegressionLongDecimals, CriticalDampingIsLeftOpenByRoundedOnes) {
+  EXPECT_TRUE(answer_of("1", "1", "0").rests_engaged);
+  EXPECT_TRUE(answer_of("0.99999999999999999999", "1", "0").rests_engaged);
+  EXPECT_TRUE(answer_of("0.99999999999999988897769753748", "1", "0").rests_engaged);
+  EXPECT_FALSE(answer_of("0.9999999999999999", "1", "0").rests_engaged);
+  EXPECT_FALSE(answer_of("0.9999999999999000000000001", "1", "0").rests_engaged);
+}
+
 TEST(RegressionLongDecimals, ABoxKnowsTheFrictionThatRoundingHides) {
   Drive drive = normal_form(0.5, 2.0, 1.0);
   EXPECT_EQ(ChangeableDrive(drive).box().servo.motor_rate, (Bounds{0.0, 0.0}));
