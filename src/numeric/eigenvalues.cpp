@@ -1,14 +1,33 @@
 #include <Eigen/Eigenvalues>
+#include <limits>
+#include <utility>
 
 #include "numeric/linear_algebra.hpp"
 
 namespace gearlash {
+namespace {
 
-Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) { return matrix.eigenvalues(); }
+using Solver = Eigen::EigenSolver<Eigen::MatrixXd>;
+
+/// Those of a solver that failed are memory that it has not written.
+Eigen::VectorXcd values_of(const Solver& solver, Eigen::Index size) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (solver.info() != Eigen::Success) return Eigen::VectorXcd::Constant(size, unknown);
+  return solver.eigenvalues();
+}
+
+}  // namespace
+
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) {
+  constexpr bool with_vectors = false;
+  return values_of(Solver(matrix, with_vectors), matrix.rows());
+}
 
 Eigensystem eigensystem(const Eigen::MatrixXd& matrix) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix);
-  return {solver.eigenvalues(), solver.eigenvectors()};
+  const Solver solver(matrix);
+  Eigen::VectorXcd values = values_of(solver, matrix.rows());
+  if (solver.info() == Eigen::Success) return {std::move(values), solver.eigenvectors()};
+  return {values, values.replicate(1, matrix.cols())};
 }
 
 Eigen::Vector3cd eigenvalues(const Eigen::Matrix3d& matrix) {
