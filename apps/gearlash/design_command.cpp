@@ -1,10 +1,13 @@
 // gearlash design: the changes of a drive that meet a target.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
 #include <utility>
 
+#include "analysis/design/closed_form_line.hpp"
+#include "analysis/design/drive_with_value.hpp"
 #include "analysis/design/feasible_values.hpp"
 #include "analysis/final_servo.hpp"
 #include "analysis/grid/axis.hpp"
@@ -17,7 +20,6 @@
 #include "model/reduced_drive.hpp"
 #include "output/design_report.hpp"
 #include "output/output_file.hpp"
-#include "output/searched_design_report.hpp"
 #include "picture/region_map.hpp"
 #include "plot_option.hpp"
 #include "servo_options.hpp"
@@ -58,40 +60,38 @@ std::string unknown_text(std::size_t known, std::size_t all) {
                      all - known == 1 ? "is" : "are");
 }
 
-/// Reads hyphens as underscores: "gear-ratio" is "gear_ratio".
-std::vector<std::string> read_parameters(const std::string& field,
-                                         const std::vector<std::string>& names,
-                                         const ChangeableDrive& drive, Faults& faults) {
-  std::vector<std::string> parameters;
-  std::vector<std::string> choices;
-  for (const ChangeableNumber& number : drive.numbers()) choices.push_back(number.name);
-  for (const std::string& name : names) {
-    std::string underscored = name;
-    std::replace(underscored.begin(), underscored.end(), '-', '_');
-    if (const ChangeableNumber* number = drive.find(underscored)) {
-      parameters.push_back(number->name);
-    } else {
-      faults.require_choice(field, name, choices);
-    }
-  }
-  return parameters;
-}
-
 /// The picture: the two parameters of --vary, y over x.
 struct Region {
-  std::vector<std::string> axes;
+  std::vector<Axis> axes{};
   Cost cost = Cost::bandwidth;
 };
 
-Region read_region(const DesignOptions& options, const ChangeableDrive& drive, Faults& faults) {
-  Region region{.axes = read_parameters("--vary", options.vary, drive, faults)};
+Region read_region(const DesignOptions& options, const Drive& drive, Faults& faults) {
+  constexpr char field[] = "--vary";
+  Region region;
   for (const Cost cost : {Cost::bandwidth, Cost::damping, Cost::stiffness}) {
     if (options.cost == name_of(cost)) region.cost = cost;
   }
-  for (const std::string& parameter : region.axes) {
-    const Bounds range = range_to_draw(drive, parameter);
-    if (range.low < range.high) continue;
-    faults.add({"--vary", parameter,
+  if (!options.vary.empty() && !closed_form_drive(drive)) {
+    faults.add({field, fmt::format("{}", fmt::join(options.vary, ",")),
+                std::string(permitted_with_closed_form) +
+                    "; of any drive, gearlash map draws a quantity over two parameters",
+                ""});
+    return region;
+  }
+  std::vector<std::string> paths;
+  for (const std::string& name : options.vary) {
+    paths.push_back(path_named(name, drive));
+    if (ClosedFormLine::along(drive, paths.back())) continue;
+    faults.add({field, name, "must be a number that enters the closed form", ""});
+    return region;
+  }
+  if (paths.size() != 2) return region;
+  const std::size_t count = values_to_draw(drive, paths[0], paths[1]);
+  for (const std::string& path : paths) {
+    region.axes.push_back(axis_to_draw(drive, path, count));
+    if (region.axes.back().values.size() > 1) continue;
+    faults.add({field, path,
                 "must not be 0: the picture varies it by multiples of its present value", ""});
   }
   return region;
@@ -117,114 +117,41 @@ void check_options(const DesignOptions& options, Faults& faults) {
 
 std::string draw(const RegionMapTask& task, const Region& region, const Plot& plot,
                  LimitedWork& work) {
-  const std::size_t count = values_to_draw(task.drive, region.axes[0], region.axes[1]);
-  const auto axis = [&](const std::string& parameter) {
-    return parameter_axis(parameter, range_to_draw(task.drive, parameter), count);
-  };
   TerminalProgress progress(work, "Region");
-  const ContourMap map = map_of(task, axis(region.axes[0]), axis(region.axes[1]), progress);
+  const ContourMap map = map_of(task, region.axes[0], region.axes[1], progress);
   if (work.is_stopped()) throw OutputError(plot.file + ": not drawn: the work was stopped before");
   return draw_contour_map(map, plot.format);
 }
 
-std::vector<FeasibleValues> work_out(const ChangeableDrive& drive, const Target& target,
-                                     const std::vector<std::string>& parameters,
-                                     LimitedWork& work) {
-  TerminalProgress progress(work, "Design");
-  std::vector<FeasibleValues> answers;
-  for (const std::string& parameter : parameters) {
-    ProgressPart part(progress, answers.size(), parameters.size());
-    answers.push_back(feasible_values(drive, parameter, target, part));
-    if (answers.back().stopped) break;
-  }
-  return answers;
-}
-
-ExitStatus run_closed_form(const DesignOptions& options, const Target& target,
-                           const WrittenDrive& written, const std::vector<Plot>& plots,
-                           const Provenance& provenance, Faults& faults) {
-  const Limits limits = read_limits(options.limits, faults);
-  const ChangeableDrive drive(closed_form_drive(written, options.servo));
-  std::vector<std::string> parameters =
-      read_parameters("--parameters", options.parameters, drive, faults);
-  const Region region = read_region(options, drive, faults);
-  faults.require_none();
-  if (parameters.empty()) parameters = region.axes;
-  if (parameters.empty()) parameters = drive.usual_names();
-  LimitedWork work(limits);
-  const DesignReport report{.drive = drive,
-                            .target_text = options.target,
-                            .target = target,
-                            .answers = work_out(drive, target, parameters, work),
-                            .angle = written.angle,
-                            .is_normalized = is_normalized(written.drive),
-                            .provenance = provenance};
-  const RegionMapTask map{.drive = drive,
-                          .target = target,
-                          .target_text = options.target,
-                          .cost = region.cost,
-                          .angle = written.angle};
-  Extras extras;
-  extras.print(options.format == "json" ? design_json(report) : design_text(report));
-  const std::size_t known = static_cast<std::size_t>(
-      std::count_if(report.answers.begin(), report.answers.end(),
-                    [](const FeasibleValues& values) { return !values.stopped; }));
-  const ExitStatus status =
-      end_work(work, ExitStatus::done, unknown_text(known, parameters.size()));
-  for (const Plot& plot : plots) {
-    extras.make([&] { write_file(plot.file, draw(map, region, plot, work)); });
-  }
-  return extras.status(status);
-}
-
-// ---- drives that are searched -------------------------------------------------------------------
-
 std::vector<Axis> read_axes(const DesignOptions& options, const Drive& drive, Faults& faults) {
+  std::vector<std::string> texts = options.parameters.empty() ? options.vary : options.parameters;
+  if (texts.empty()) texts = usual_parameters(drive);
   std::vector<Axis> axes;
-  for (const std::string& text :
-       options.parameters.empty() ? usual_parameters(drive) : options.parameters) {
+  for (const std::string& text : texts) {
     axes.push_back(collect_axis(
-        [&](auto* out) { return read_axis_or_name("--parameters", text, drive, out); }, faults));
-  }
-  if (!options.plots.empty()) {
-    faults.add({"--plot", options.plots.front(),
-                std::string(permitted_with_closed_form) +
-                    "; of any drive, gearlash map draws a quantity over two parameters",
-                ""});
+        [&](auto* out) { return read_axis_to_search("--parameters", text, drive, out); }, faults));
   }
   return axes;
 }
 
-ExitStatus run_searched(const DesignOptions& options, const Target& target,
-                        const WrittenDrive& written, const Provenance& provenance, Faults& faults) {
-  const Drive& drive = written.drive;
-  const std::vector<Axis> axes = read_axes(options, drive, faults);
-  const Limits limits = read_limits(options.limits, faults);
-  faults.require_none();
-  LimitedWork work(limits);
-  SearchedDesignReport report{.drive = drive,
-                              .target_text = options.target,
-                              .target = target,
-                              .angle = written.angle,
-                              .provenance = provenance};
+/// Fills in the report as far as the work is not stopped. Returns how many axes were searched.
+std::size_t work_out(const std::vector<Axis>& axes, DesignReport& report, LimitedWork& work) {
+  TerminalProgress progress(work, "Design");
+  const Drive& drive = report.drive;
   std::size_t known = 0;
-  {
-    TerminalProgress progress(work, "Design");
-    report.present = with_value(drive, nullptr, 0.0, progress);
-    for (const Axis& axis : axes) {
-      ProgressPart part(progress, report.parameters.size(), axes.size());
-      SearchedParameter found{.values = feasible_values(drive, axis, target, part)};
-      for (const double value : found.values.nearest_of_each()) {
-        found.results.push_back(with_value(drive, &axis, value, part));
-      }
-      report.parameters.push_back(std::move(found));
-      if (!work.go_on()) break;
-      ++known;
+  report.present = with_value(drive, nullptr, 0.0, report.target, progress);
+  report.met = judge_present(drive, report.target, report.present.answer);
+  for (const Axis& axis : axes) {
+    ProgressPart part(progress, report.parameters.size(), axes.size());
+    DesignedParameter found{.values = feasible_values(drive, axis, report.target, part)};
+    for (const double value : found.values.nearest_of_each()) {
+      found.results.push_back(with_value(drive, &axis, value, report.target, part));
     }
+    report.parameters.push_back(std::move(found));
+    if (!work.go_on()) break;
+    ++known;
   }
-  Extras extras;
-  extras.print(options.format == "json" ? design_json(report) : design_text(report));
-  return extras.status(end_work(work, ExitStatus::done, unknown_text(known, axes.size())));
+  return known;
 }
 
 ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
@@ -240,10 +167,30 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
       },
       Target{});
   if (!written) faults.require_none();
-  if (is_closed_form_task(written->drive, target, options.parameters)) {
-    return run_closed_form(options, target, *written, plots, provenance, faults);
+  const Drive& drive = written->drive;
+  const std::vector<Axis> axes = read_axes(options, drive, faults);
+  const Region region = read_region(options, drive, faults);
+  const Limits limits = read_limits(options.limits, faults);
+  faults.require_none();
+  LimitedWork work(limits);
+  DesignReport report{.drive = drive,
+                      .target_text = options.target,
+                      .target = target,
+                      .angle = written->angle,
+                      .provenance = provenance};
+  const std::size_t known = work_out(axes, report, work);
+  Extras extras;
+  extras.print(options.format == "json" ? design_json(report) : design_text(report));
+  const ExitStatus status = end_work(work, ExitStatus::done, unknown_text(known, axes.size()));
+  const RegionMapTask map{.drive = drive,
+                          .target = target,
+                          .target_text = options.target,
+                          .cost = region.cost,
+                          .angle = written->angle};
+  for (const Plot& plot : plots) {
+    extras.make([&] { write_file(plot.file, draw(map, region, plot, work)); });
   }
-  return run_searched(options, target, *written, provenance, faults);
+  return extras.status(status);
 }
 
 }  // namespace
@@ -262,13 +209,11 @@ void add_design_command(Command& app, Action& action) {
       ->required();
   command
       ->add_option("--parameters", options->parameters,
-                   "List the parameters that may change, by path, separated by commas:\n"
-                   "gearbox.ratio, load.friction, ...; tachometer is added speed feedback;\n"
-                   "the normal form has shares instead: gear_ratio, error_gain,\n"
-                   "load_friction, motor_friction, load_inertia, motor_inertia; default\n"
-                   "those of --vary, else those that are easiest to change. Of a drive\n"
-                   "without a closed form any number or choice, searched from 0.1 to 10\n"
-                   "times its present value or over PATH=FROM:TO:COUNT[:log], with units")
+                   "List the parameters that may change, separated by commas: any number or\n"
+                   "choice by its path, such as gearbox.ratio, or with a range,\n"
+                   "PATH=FROM:TO:COUNT[:log], with units; default those of --vary, else\n"
+                   "those that are easiest to change. Without a range: 0.001 to 1000 times\n"
+                   "the present value where the closed form answers, else 0.1 to 10 times")
       ->type_name("NAMES")
       ->delimiter(',');
   command

@@ -116,7 +116,7 @@ std::vector<Axis> read_parameters(const LimitCycleOptions& options, const Drive&
   std::vector<Axis> axes;
   for (const std::string& text : options.parameters) {
     axes.push_back(collect_axis(
-        [&](auto* out) { return read_axis_or_name(field, text, drive, out); }, faults));
+        [&](auto* out) { return read_axis_to_search(field, text, drive, out); }, faults));
   }
   if (!axes.empty() && !options.margins) {
     faults.add({field, options.parameters.front(), "must come with --margins", ""});
@@ -134,22 +134,19 @@ struct Changes {
 /// Adds margins and sensitivities.
 void add_changes(Result& result, const Drive& drive, const Changes& wanted, LimitedWork& work) {
   const bool is_closed = gearlash::closed_form_drive(drive).has_value();
-  std::optional<ChangeableDrive> changeable;
-  if (is_closed) changeable = ChangeableDrive(drive);
   // At the very ends of the ranges, rounding may put the ratios outside them.
-  const bool is_sound = !is_closed || validate(changeable->drivetrain()).empty();
+  const bool is_sound = !is_closed || validate(final_servo(drive)->drivetrain).empty();
   if (wanted.margins && is_sound) {
     TerminalProgress progress(work, "Margins");
     result.report.margin = wanted.axes.empty() ? hunting_margin(drive, progress)
                                                : hunting_margin(drive, wanted.axes, progress);
-    if (wanted.axes.empty()) result.report.changeable = changeable;
   }
   if (!wanted.sensitivities) return;
   if (!is_closed) {
     TerminalProgress progress(work, "Sensitivities");
     result.report.sensitivity = searched_derivatives(drive, result.analysis, progress);
   } else {
-    result.report.sensitivity = is_sound ? drive_sensitivity(*changeable) : Jacobian{};
+    result.report.sensitivity = is_sound ? drive_sensitivity(drive) : Jacobian{};
   }
 }
 

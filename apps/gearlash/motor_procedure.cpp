@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "analysis/analyse.hpp"
 #include "base/overloaded.hpp"
+#include "closed_form/closed_answer.hpp"
 #include "closed_form/limit_cycle.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/answer_report.hpp"

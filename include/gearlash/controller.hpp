@@ -152,6 +152,11 @@ struct Controller {
   /// If given, it replaces all of the above: the registers of a motor's firmware, which are
   /// converted to one of these laws.
   std::optional<Firmware> firmware{};
+  /// ≥ 0, a tachometer: the drive's amplifier subtracts it times the motor's speed from the output
+  /// of any of these. V s/rad of the motor's shaft, or N m s/rad with torque control. It is
+  /// continuous and exact, whatever the sampling, and limits of the output do not act on it: like a
+  /// back-EMF it is friction of the motor.
+  double motor_speed_feedback = 0.0;
 
   bool operator==(const Controller&) const = default;
 };

@@ -18,16 +18,10 @@
 
 namespace gearlash {
 
-// All numbers are in SI. What is named by its path alone is answered by the closed form: such a
-// function throws InvalidInput for an unsound drive, for a drive without a closed form (with what
-// it would need), and for a parameter that does not enter the closed form (with those that do).
-// What has an axis is searched, for any parameter of any drive.
-//
-// A parameter is given by its path or an alias ("gearbox.ratio", "controller.kp"). "tachometer" is
-// additional feedback of the motor's speed, in V s/rad, with torque control in N m s/rad. A normal
-// form has further parameters: "gear_ratio" and "error_gain", relative to their present values;
-// "load_inertia" and "motor_inertia", as shares of the total inertia; and "load_friction",
-// "motor_friction" and "tachometer", as shares of the critical friction 2ω_n(J_M + J_L).
+// All numbers are in SI. A parameter is given by its path or an alias ("gearbox.ratio",
+// "controller.kp"). A normal form also has the numbers of the drive that it stands for
+// (gearlash/parameter.hpp): "gearbox.ratio", "controller.proportional", "load.inertia" as a share
+// of the total inertia, and so on.
 
 /// The values of a quantity that a target permits.
 struct QuantityLimit {
@@ -99,9 +93,9 @@ struct Border {
   std::string event{};   ///< of a grazing: "mode: event"
 };
 
-/// How far a target on ceilings alone is proved over an interval of values.
+/// How far a target's limits of ceilings are proved over an interval of values.
 struct IntervalProof {
-  /// Rising, apart from each other: every value within meets the target, proved with outward
+  /// Rising, apart from each other: every value within keeps these limits, proved with outward
   /// rounding over all of it. What lies between them, usually next to the ends of the interval,
   /// where the limit is nearly reached, is searched.
   std::vector<Bounds> parts{};
@@ -112,11 +106,9 @@ struct IntervalProof {
 
 /// The values of one parameter that meet a target.
 struct FeasibleValues {
-  std::string parameter{};  ///< its path, or "tachometer" and so on
+  std::string parameter{};  ///< its path
   double present = 0.0;     ///< its value now, SI; NaN if it is not given
-  /// 0.001 to 1000 times the present value. Friction and feedback: 0 to ten times critical damping.
-  /// Shares: 0 to 1. Narrower where the drive permits less.
-  Bounds searched{};
+  Bounds searched{};        ///< the range of the axis, narrower where the drive permits less
   SearchKind kind = SearchKind::certified;  ///< how sure the intervals are
   /// All values that meet the target, rising. An end is the last number that meets it, to a
   /// relative 1e-15 (with bounces 1e-6 where the cycle vanishes abruptly), or the end of the range.
@@ -141,8 +133,10 @@ struct FeasibleValues {
   /// ends. Where a stable cycle that misses the target goes on into an interval in which no start
   /// leads to it, the interval ends with it; one that it fills is undecided.
   std::vector<Border> borders{};
-  /// Searched: one for each interval, if the target limits ceilings alone and the parameter is a
-  /// number.
+  /// The conditions that were scanned within the intervals that the others leave, by values as
+  /// dense as those of the grid. `kind` is that of the others.
+  Target searched_within{};
+  /// Of a number, one for each interval: how far what the target says of ceilings is proved.
   std::vector<IntervalProof> proofs{};
   bool stopped = false;  ///< by Progress: values not reached are undecided
 
@@ -154,20 +148,28 @@ struct FeasibleValues {
   [[nodiscard]] std::vector<double> nearest_of_each() const;
 };
 
-/// Plastic contact: proved, in milliseconds; no feasible value is missed outside `undecided`. With
-/// bounces: scanned, in seconds; intervals narrower than 1/65 of the range can be missed. Also
-/// throws InvalidInput for a target with faults().
-[[nodiscard]] FeasibleValues feasible_values(const Drive& drive, std::string_view parameter,
-                                             const Target& target);
-
-/// The same for any parameter of any drive and any target, by analyse() at each value of an axis,
-/// which may be the choices of a word, with the last values that meet the target between them. In
-/// seconds to minutes, on all cores. A feasible value meets the target when it is analysed by
-/// itself at every value of the grid and at the ends of intervals; between them it is followed.
-/// Throws InvalidInput for an unsound drive, for the faults of the axis and of the target.
+/// The values of an axis that meet the target, for any parameter of any drive; of a word its
+/// choices. Where the closed form answers, the range of the axis is searched whatever its values.
+/// With plastic contact that is certified, in milliseconds: no feasible value is missed outside
+/// `undecided`. With bounces it is scanned, in seconds: intervals narrower than 1/65 of the range
+/// can be missed. Any other drive is analysed by itself at each value of the axis and at the ends
+/// of intervals, and followed between, in seconds to minutes, on all cores. Conditions on figures,
+/// which need no motion (the linear loop, a step, ceilings), are scanned within what the others
+/// permit: a condition more never loses a proof, a range or an interval. Throws InvalidInput for an
+/// unsound drive, for the faults of the axis and of the target.
 [[nodiscard]] FeasibleValues feasible_values(const Drive& drive, const Axis& axis,
                                              const Target& target,
                                              Progress& progress = no_progress());
+
+/// The same over axis_to_search().
+[[nodiscard]] FeasibleValues feasible_values(const Drive& drive, std::string_view parameter,
+                                             const Target& target,
+                                             Progress& progress = no_progress());
+
+/// The range that a design searches: in closed form the ends of 0.001 to 1000 times the present
+/// value, of 0 to ten times critical damping for what only adds friction, or of 0 to 1 for a share,
+/// narrower where the drive permits less; else usual_axis(). Throws as usual_axis() does.
+[[nodiscard]] Axis axis_to_search(const Drive& drive, std::string_view parameter);
 
 /// The axis that is searched if nothing else is known: 25 values by ratio from 0.1 to 10 times the
 /// present one, and 0 if it is permitted; 0 to 1 of a share; a usual range where the value is 0;
@@ -175,8 +177,9 @@ struct FeasibleValues {
 /// where there is no such axis.
 [[nodiscard]] Axis usual_axis(const Drive& drive, std::string_view parameter);
 
-/// The parameters of a drive that are easiest to change, by their paths: the gap, and every number
-/// of the controller or of the normal form that is above 0.
+/// The parameters of a drive that are easiest to change, by their paths. In closed form: backlash,
+/// ratio, gains, frictions, added feedback of the motor's speed, inertias and restitution. Else the
+/// gap, and every number of the controller or of the normal form that is above 0.
 [[nodiscard]] std::vector<std::string> usual_parameters(const Drive& drive);
 
 /// The nearest values below and above the present one at which hunting starts, or stops if the

@@ -36,6 +36,10 @@ struct ParameterInfo {
 /// The parameters that this drive has, in the order of files.
 [[nodiscard]] std::vector<ParameterInfo> parameters_of(const Drive& drive);
 
+// A normal form also has the numbers of the drive that it stands for, with a total inertia of
+// 1 kg m² and a gear ratio of 1: "load.inertia" is then a share of it. Where one of them is set the
+// normal form becomes that drive.
+
 /// A number in SI, or its default if it is not given. Throws InvalidInput for a path that the drive
 /// does not have, for one that is no number, and for one without value and default.
 [[nodiscard]] double get(const Drive& drive, std::string_view path);

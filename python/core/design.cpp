@@ -3,7 +3,6 @@
 
 #include <pybind11/stl.h>
 
-#include "analysis/design/feasible_values.hpp"
 #include "analysis/design/tolerance_study.hpp"
 #include "arrays.hpp"
 #include "base/progress_part.hpp"
@@ -18,37 +17,23 @@
 namespace gearlash::python {
 namespace {
 
-std::vector<std::string> texts_of(const py::object& parameters) {
-  std::vector<std::string> texts;
-  for (const py::handle& one : parameters) {
-    if (py::isinstance<py::str>(one)) texts.push_back(one.cast<std::string>());
-  }
-  return texts;
-}
-
 /// One FeasibleValues for each of the parameters: paths, "PATH=FROM:TO:COUNT" or gearlash.Axis.
 py::object designed(py::handle drive, py::handle target, const py::object& parameters,
                     const py::object& progress) {
   const Drive of = drive_of(drive);
   const auto limits = from_python<Target>(target, "target");
-  const std::vector<std::string> texts = texts_of(parameters);
-  const bool is_closed =
-      texts.size() == py::len(parameters) && is_closed_form_task(of, limits, texts);
   std::vector<Axis> axes;
   for (const py::handle& one : parameters) {
-    if (is_closed) break;
     axes.push_back(py::isinstance<py::str>(one)
-                       ? read_axis_or_name("parameters", one.cast<std::string>(), of)
+                       ? read_axis_to_search("parameters", one.cast<std::string>(), of)
                        : from_python<Axis>(one, "parameters"));
   }
-  const std::size_t count = py::len(parameters);
   const auto answers = interruptible(progress, [&](Progress& reports) {
     std::vector<FeasibleValues> found;
-    while (found.size() < count) {
-      ProgressPart part(reports, found.size(), count);
+    while (found.size() < axes.size()) {
+      ProgressPart part(reports, found.size(), axes.size());
       if (!part.go_on(0.0)) break;
-      found.push_back(is_closed ? feasible_values(of, texts[found.size()], limits)
-                                : feasible_values(of, axes[found.size()], limits, part));
+      found.push_back(feasible_values(of, axes[found.size()], limits, part));
     }
     return found;
   });
@@ -138,7 +123,7 @@ void add_design(py::module_& module) {
   module.def("usual_parameters",
              [](py::handle drive) { return to_python(usual_parameters(drive_of(drive))); });
   module.def("axis", [](const std::string& text, py::handle drive) {
-    return to_python(read_axis_or_name("axis", text, drive_of(drive)));
+    return to_python(read_axis_to_search("axis", text, drive_of(drive)));
   });
   module.def("margins", margin_of, py::call_guard<LongCall>());
   module.def("tolerance_study", studied, py::call_guard<LongCall>());

@@ -88,25 +88,27 @@ def target_of(rng, backlash):
 def design(rng):
     for _ in range(24):
         servo = normal_form(rng)
-        names = rng.choice(["backlash,gear_ratio", "error_gain,load_friction",
-                            "tachometer,load_inertia", "motor_friction,motor_inertia"])
+        names = rng.choice(["backlash,gearbox.ratio", "controller.proportional,load.friction",
+                            "controller.motor_speed_feedback,load.inertia",
+                            "motor.friction,motor.inertia"])
         yield about("design", servo, target=target_of(rng, servo["backlash"]), parameters=names)
     for _ in range(6):
         servo = normal_form(rng, restitution(rng))
         yield about("design", servo, target=rng.choice([
             "no-hunting", f"amplitude <= {0.5 * servo['backlash']:.4g}"]),
-            parameters=rng.choice(["backlash", "servo.damping", "load_friction"]))
+            parameters=rng.choice(["backlash", "servo.damping", "load.friction"]))
     for _ in range(20):
         sheet = data_sheet(rng)
         yield question("design", sheet, target=rng.choice([
             "no-hunting", "amplitude <= 1 deg", "amplitude <= 10 arcmin", "growth-at-rest <= 0.9",
             "frequency >= 5 Hz", "period <= 0.2 s", "no-hunting and growth-at-rest <= 0.5"]),
-            parameters=rng.choice(["gearbox.backlash,gearbox.ratio", "load.friction,tachometer",
+            parameters=rng.choice(["gearbox.backlash,gearbox.ratio",
+                                   "load.friction,controller.motor_speed_feedback",
                                    "controller.proportional,load.inertia"]))
     for name in ("elinco-fd162", "instrument-two-phase", "antenna-field-controlled"):
         yield question("design", example(name), target="no-hunting")
         yield question("design", example(name), target="amplitude <= 0.1 deg",
-                       parameters="gearbox.backlash,tachometer")
+                       parameters="gearbox.backlash,controller.motor_speed_feedback")
     yield from searched_design(rng)
 
 
@@ -129,7 +131,8 @@ def searched_design(rng):
 
 def regions(rng):
     """Where two parameters together meet a target. Only a picture has it."""
-    for vary in ("load_friction,gear_ratio", "backlash,error_gain", "tachometer,load_inertia"):
+    for vary in ("load.friction,gearbox.ratio", "backlash,controller.proportional",
+                 "controller.motor_speed_feedback,load.inertia"):
         servo = normal_form(rng)
         yield about("design", servo, "svg", target=target_of(rng, servo["backlash"]), vary=vary)
     for vary, cost in (("gearbox.backlash,controller.proportional", "bandwidth"),

@@ -10,7 +10,6 @@
 
 #include "analysis/ceiling/ceiling.hpp"
 #include "analysis/contradictions.hpp"
-#include "analysis/design/changeable_drive.hpp"
 #include "analysis/drive_notes.hpp"
 #include "analysis/energy/absence_by_energy.hpp"
 #include "analysis/energy/computed_rest.hpp"
@@ -23,42 +22,15 @@
 #include "base/interval.hpp"
 #include "base/number.hpp"
 #include "base/range_check.hpp"
+#include "base/special_numbers.hpp"
+#include "closed_form/closed_answer.hpp"
 #include "general/attractors/search_setting.hpp"
 #include "model/proportional_servo.hpp"
 
 namespace gearlash {
 namespace {
 
-/// A number that may not have been computed.
-std::optional<double> known(double value) {
-  return std::isnan(value) ? std::nullopt : std::optional(value);
-}
-
 // ---- closed form --------------------------------------------------------------------------------
-
-Cycle cycle_of(const LimitCycle& found, Certainty certainty, double time_unit,
-               const std::optional<double>& stiffness) {
-  Cycle cycle;
-  cycle.kind = found.kind;
-  cycle.stability = found.stable ? Stability::stable : Stability::unstable;
-  cycle.certainty = certainty;
-  cycle.amplitude = found.amplitude;
-  cycle.motor_amplitude = found.motor_amplitude;
-  cycle.period = found.period * time_unit;
-  cycle.multiplier = found.multiplier;
-  cycle.residual = found.residual;
-  cycle.impact_speed = found.impact_speed / time_unit;
-  cycle.engaged_time = found.engaged_time * time_unit;
-  cycle.separated_time = found.separated_time * time_unit;
-  cycle.events_per_period = found.impacts_per_period;
-  cycle.settles = found.settles;
-  if (stiffness && !std::isnan(found.energy.lost())) {
-    const double unit = *stiffness;
-    cycle.energy = EnergyLost{found.energy.motor_friction * unit, found.energy.load_friction * unit,
-                              found.energy.impacts * unit};
-  }
-  return cycle;
-}
 
 /// Factors from the normal form to SI, with the error of the data.
 struct Scales {
@@ -343,36 +315,6 @@ Answer answer_by_energy(const drive::ReducedDrive& reduced) {
 
 }  // namespace
 
-Answer answer_of(const LimitCycleAnalysis& analysis, const ClosedFormServo& servo,
-                 std::optional<double> stiffness) {
-  const double time_unit = 1.0 / servo.natural_frequency;
-  const NormalizedServo& normal = servo.servo;
-  Answer answer;
-  answer.verdict = analysis.verdict;
-  answer.certainty = analysis.certainty;
-  answer.completeness = analysis.certainty;
-  answer.engine = Engine::closed_form;
-  answer.normal_form = NormalFormNumbers{.damping = normal.damping,
-                                         .inertia_ratio = normal.inertia_ratio,
-                                         .friction_ratio = normal.friction_ratio,
-                                         .backlash = normal.backlash,
-                                         .restitution = normal.restitution,
-                                         .natural_frequency = servo.natural_frequency,
-                                         .stiffness = stiffness};
-  answer.growth_at_rest = known(analysis.growth_at_rest);
-  answer.is_dissipative = analysis.is_dissipative;
-  answer.rests_engaged = analysis.rests_engaged;
-  answer.neutral_swings = analysis.neutral_swings;
-  const Certainty of_cycles = analysis.is_proved() ? analysis.certainty : Certainty::computed;
-  for (const LimitCycle& cycle : analysis.cycles) {
-    answer.cycles.push_back(cycle_of(cycle, of_cycles, time_unit, stiffness));
-  }
-  if (const auto amplitude = known(analysis.irregular_amplitude)) {
-    answer.irregular.push_back({.amplitude = *amplitude});
-  }
-  return answer;
-}
-
 Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive& reduced) {
   Answer answer;
   const drive::DriveSystem system = drive::drive_system(reduced);
@@ -490,8 +432,7 @@ Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress,
   Analysis analysis;
   analysis.reduced = reduce_settled(drive);
   if (const std::optional<FinalServo> found = final_servo(drive)) {
-    const Drivetrain& drivetrain = found->drivetrain;
-    const DriveBox box = box_between(drivetrain, drivetrain, data_error_of(drive, drivetrain));
+    const DriveBox box = box_of(drive, *found);
     analysis.servo = found->closed_form;
     analysis.closed = closed_analysis(drive, *analysis.servo, box, wanted);
     analysis.answer = answer_of(*analysis.closed, *analysis.servo, found->stiffness);

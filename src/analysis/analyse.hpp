@@ -37,11 +37,6 @@ Analysis analyse_until(const Drive& drive, const Wanted& wanted,
                        const std::function<bool(const drive::AttractorSearch&)>& is_enough,
                        Progress& progress = no_progress(), const Analysis* near = nullptr);
 
-/// The answer for a servo in the normal form, in SI. `stiffness`: K, N m/rad; without it there are
-/// no energies. Proved bounds are left out, because they need the error of the data.
-Answer answer_of(const LimitCycleAnalysis& analysis, const ClosedFormServo& servo,
-                 std::optional<double> stiffness);
-
 /// Whether every motion ends at rest: cannot_hunt or comes_to_rest.
 bool is_at_rest(Verdict verdict);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "analysis/design/feasible_values.hpp"
 #include "analysis/grid/axis.hpp"
 #include "base/range_check.hpp"
 #include "gearlash/parameter.hpp"
@@ -70,6 +71,18 @@ bool is_rounded(const AxisText& axis, const Drive& drive) {
   });
 }
 
+/// An axis as typed, or that of a name alone.
+template <class AxisOfName>
+Axis read_typed_axis(std::string_view field, std::string_view text, const Drive& drive,
+                     std::string* left_out, const AxisOfName& axis_of) {
+  if (text.find('=') != std::string_view::npos) {
+    return read_axis(split_axis(field, text), drive, left_out);
+  }
+  const Axis named{.path = path_named(text, drive)};
+  if (parameter_of(named, drive) == nullptr) refuse(field, text, known_text(drive, text));
+  return axis_of(text);
+}
+
 }  // namespace
 
 AxisText split_axis(std::string_view field, std::string_view text) {
@@ -83,12 +96,14 @@ AxisText split_axis(std::string_view field, std::string_view text) {
 
 Axis read_axis_or_name(std::string_view field, std::string_view text, const Drive& drive,
                        std::string* left_out) {
-  if (text.find('=') != std::string_view::npos) {
-    return read_axis(split_axis(field, text), drive, left_out);
-  }
-  const Axis named{.path = path_named(text, drive)};
-  if (parameter_of(named, drive) == nullptr) refuse(field, text, known_text(drive, text));
-  return usual_axis(field, drive, text);
+  return read_typed_axis(field, text, drive, left_out,
+                         [&](std::string_view name) { return usual_axis(field, drive, name); });
+}
+
+Axis read_axis_to_search(std::string_view field, std::string_view text, const Drive& drive,
+                         std::string* left_out) {
+  return read_typed_axis(field, text, drive, left_out,
+                         [&](std::string_view name) { return axis_to_search(field, drive, name); });
 }
 
 Axis read_axis_to_tune(std::string_view field, const std::string& text, const Drive& drive,

@@ -36,6 +36,9 @@ Axis read_axis(const AxisText& text, const Drive& drive, std::string* left_out =
 /// An axis as typed, or usual_axis() of a name alone: "controller.proportional". Throws as both do.
 Axis read_axis_or_name(std::string_view field, std::string_view text, const Drive& drive,
                        std::string* left_out = nullptr);
+/// The same for a design: an axis as typed, or axis_to_search() of a name alone.
+Axis read_axis_to_search(std::string_view field, std::string_view text, const Drive& drive,
+                         std::string* left_out = nullptr);
 
 /// The values that tune() may try: PATH=FROM:TO, by ratio where both ends are positive; an axis as
 /// typed; or usual_axis_to_tune() of a name alone. Throws as these do.

@@ -366,6 +366,19 @@ std::vector<Parameter> matrix_parameters() {
            .wanted = "a list of 1 or 3 numbers"}};
 }
 
+std::vector<Parameter> motor_speed_feedback() {
+  return {
+      {.path = "controller.motor_speed_feedback",
+       .slot = [](Drive& d) { return d.servo ? Slot{} : Slot{&d.controller.motor_speed_feedback}; },
+       .dimension = [](const Drive& d) -> const Dimension* {
+         const bool has_torque = std::holds_alternative<TorqueControl>(d.motor.kind);
+         return has_torque ? &torque_per_speed : &voltage_per_speed;
+       },
+       .meaning = "feedback of the motor's speed by a tachometer, beside the law",
+       .permitted = Permitted::not_negative,
+       .usual = {1e-4, 10.0}}};
+}
+
 // ---- sampling -----------------------------------------------------------------------------------
 
 std::vector<Parameter> sampling_parameters() {
@@ -422,7 +435,7 @@ std::vector<Parameter> control_parameters() {
   list.push_back(controller_kind());
   list.push_back(controller_shaft());
   for (auto* part : {&pid_parameters, &other_laws, &matrix_parameters, &nonlinear_parameters,
-                     &firmware_parameters, &sampling_parameters}) {
+                     &firmware_parameters, &motor_speed_feedback, &sampling_parameters}) {
     for (Parameter& parameter : (*part)()) list.push_back(std::move(parameter));
   }
   return list;

@@ -71,7 +71,10 @@ Slopes slopes_of_motor(const Parts& parts, std::string_view path) {
     return {{.motor_friction = parts.output.torque * parts.ratio}};
   }
   if (path == "motor.torque_per_volt") {
-    return {{.motor_friction = parts.feedback / value, .stiffness = stiffness / value}};
+    const double of_tachometer =
+        parts.output.torque * parts.ratio * parts.drive.controller.motor_speed_feedback;
+    return {{.motor_friction = (of_tachometer + parts.feedback) / value,
+             .stiffness = stiffness / value}};
   }
   return std::nullopt;
 }
@@ -80,6 +83,9 @@ Slopes slopes_of_controller(const Parts& parts, std::string_view path) {
   const double stiffness = parts.drivetrain.stiffness;
   if (path == "controller.proportional") return {{.stiffness = parts.per_output}};
   if (path == "controller.derivative") return {{.motor_friction = parts.per_output}};
+  if (path == "controller.motor_speed_feedback") {
+    return {{.motor_friction = parts.output.torque * parts.ratio}};
+  }
   if (!path.starts_with("controller.")) return std::nullopt;
   const double value = get(parts.drive, path);
   if (path == "controller.position") return {{.stiffness = stiffness / value}};
@@ -128,6 +134,7 @@ bool keeps_closed_form(Drive drive, const Parameter& parameter) {
 
 std::optional<DrivetrainSlopes> drivetrain_slopes(const Drive& drive, std::string_view path) {
   const Parameter* parameter = find_parameter(path, drive);
+  if (parameter == nullptr && drive.servo) return drivetrain_slopes(physical_form(drive), path);
   if (parameter == nullptr || !exists(*parameter, drive)) return std::nullopt;
   if (!keeps_closed_form(drive, *parameter)) return std::nullopt;
   if (parameter->path == "contact.restitution") return DrivetrainSlopes{.restitution = 1.0};

@@ -14,7 +14,9 @@ std::vector<PlacedGain> placed_gains(const Drive& drive) {
   if (drive.servo || !has_torque || ratio == 1.0) return gains;
   const double scale = gain_scale(drive);
   for (const Parameter& parameter : all_parameters_of_drives()) {
-    if (parameter.section() != "controller" || !exists(parameter, drive)) continue;
+    const bool is_of_law = parameter.section() == "controller" &&
+                           parameter.path != "controller.motor_speed_feedback";  // of the motor's
+    if (!is_of_law || !exists(parameter, drive)) continue;
     const Dimension* dimension = parameter.dimension(drive);
     const bool is_gain = dimension == &dimensions::torque_per_angle ||
                          dimension == &dimensions::torque_per_angle_and_time ||

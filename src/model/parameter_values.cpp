@@ -5,6 +5,7 @@
 
 #include "base/overloaded.hpp"
 #include "gearlash/parameter.hpp"
+#include "model/reduced_drive.hpp"
 
 namespace gearlash {
 namespace {
@@ -76,7 +77,18 @@ const OtherForm* form_named(const Parameter& parameter, std::string_view path) {
   return nullptr;
 }
 
+void take_form_with(Drive& drive, std::string_view path) {
+  if (!drive.servo) return;
+  const std::string_view plain = path.substr(0, path.find('['));
+  const bool may_have_it =
+      find_parameter(plain) != nullptr && find_parameter(plain, drive) == nullptr;
+  if (!may_have_it) return;
+  Drive physical = physical_form(drive);
+  if (find_parameter(plain, physical) != nullptr) drive = std::move(physical);
+}
+
 void add_section_of(Drive& drive, std::string_view path) {
+  take_form_with(drive, path);
   const std::string_view name = path.substr(0, path.find('.'));
   for (const Section& section : all_sections()) {
     if (section.name == name && !section.is_present(drive) && name != "servo") section.add(drive);
@@ -114,10 +126,12 @@ std::vector<ParameterInfo> parameters_of(const Drive& drive) {
   return list;
 }
 
-double get(const Drive& drive, std::string_view path) {
+double get(const Drive& of, std::string_view path) {
+  Drive drive = of;
+  take_form_with(drive, path);
   const Parameter& parameter = parameter_of(drive, path);
   const IndexedPath indexed = without_indices(path);
-  const Slot slot = parameter.slot(const_cast<Drive&>(drive));
+  const Slot slot = parameter.slot(drive);
   std::optional<double> value = number_in(parameter, drive);
   if (const double* place = number_place(slot, indexed, path)) value = *place;
   if (!value) refuse(path, "must be a number that this drive has");

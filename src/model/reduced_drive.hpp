@@ -10,7 +10,8 @@
 namespace gearlash {
 
 /// How much of the controller's output arrives at the load: torque there per unit of output, and
-/// the friction that the motor's winding adds (back-EMF, or the slope of its speed-torque curve).
+/// the friction that the motor's winding adds (back-EMF, or the slope of its speed-torque curve)
+/// and its tachometer.
 template <class Number>
 struct ReferredOutputOf {
   Number torque = 1.0;    ///< N m per V, or per N m at the motor's shaft

@@ -130,6 +130,26 @@ class Reduction {
     return output_scale() * (is_of_motor ? ratio() : Number(1.0));
   }
   ReferredOutputOf<Number> output() const {
+    ReferredOutputOf<Number> output = output_of_motor();
+    const double feedback = drive_.controller.motor_speed_feedback;
+    if (feedback != 0.0) {
+      output.friction = output.friction + output.torque * ratio() * datum_(feedback);
+    }
+    return output;
+  }
+  Number restitution() const {
+    const auto* rigid = std::get_if<RigidContact>(&drive_.contact);
+    return rigid == nullptr ? Number(0.0) : datum_(rigid->restitution);
+  }
+  /// `scale`: torque at the load per unit of a gain.
+  drive::ControllerOf<Number> controller(const Number& scale) const {
+    return std::visit([&](const auto& law) { return reduced(law, scale); }, drive_.controller.law);
+  }
+
+ private:
+  Number ratio() const { return datum_(drive_.gearbox.ratio); }
+
+  ReferredOutputOf<Number> output_of_motor() const {
     const Number square = ratio() * ratio();
     return std::visit(
         Overloaded{[&](const TorqueControl&) {
@@ -151,17 +171,6 @@ class Reduction {
                    }},
         drive_.motor.kind);
   }
-  Number restitution() const {
-    const auto* rigid = std::get_if<RigidContact>(&drive_.contact);
-    return rigid == nullptr ? Number(0.0) : datum_(rigid->restitution);
-  }
-  /// `scale`: torque at the load per unit of a gain.
-  drive::ControllerOf<Number> controller(const Number& scale) const {
-    return std::visit([&](const auto& law) { return reduced(law, scale); }, drive_.controller.law);
-  }
-
- private:
-  Number ratio() const { return datum_(drive_.gearbox.ratio); }
   /// A number of the controller.
   Number gain(double value) const {
     return is_converted_ ? datum_.converted(value) : datum_(value);

@@ -184,9 +184,7 @@ std::string answer_json(const AnswerReport& report) {
   json["thresholds"] = json_list(answer.thresholds, &json_threshold);
   json["measured"] = measured_json(report);
   json["search"] = json_search(answer.search);
-  json["margin"] = !report.margin      ? Json(nullptr)
-                   : report.changeable ? margin_json(*report.changeable, *report.margin)
-                                       : margin_json(report.drive, *report.margin);
+  json["margin"] = report.margin ? margin_json(report.drive, *report.margin) : Json(nullptr);
   json["sensitivities"] =
       report.sensitivity ? sensitivity_json(*report.sensitivity) : Json(nullptr);
   json["notes"] = json_list(answer.notes, [](const Note& note) {

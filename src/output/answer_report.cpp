@@ -523,9 +523,7 @@ std::string answer_text(const AnswerReport& report) {
   text += gains_table(report);
   text += "\n";
   if (report.margin) {
-    text += (report.changeable ? margin_text(*report.changeable, *report.margin, report.angle)
-                               : margin_text(report.drive, *report.margin, report.angle)) +
-            "\n";
+    text += margin_text(report.drive, *report.margin, report.angle) + "\n";
   }
   if (report.sensitivity) text += sensitivity_text(*report.sensitivity) + "\n";
   for (const Note& note : answer.notes) {

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 
-#include "analysis/design/changeable_drive.hpp"
 #include "gearlash/answer.hpp"
 #include "gearlash/design.hpp"
 #include "gearlash/drive.hpp"
@@ -29,8 +28,6 @@ struct AnswerReport {
   bool is_normalized = false;
   Provenance provenance{};
   std::optional<HuntingMargin> margin{};  ///< on request, as is `sensitivity`
-  /// The drive of a margin in closed form.
-  std::optional<ChangeableDrive> changeable{};
   std::optional<Jacobian> sensitivity{};
   /// rad: an amplitude of the load for which the widest backlash is to be stated that provably
   /// keeps it. Needs the ceiling.

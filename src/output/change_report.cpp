@@ -15,20 +15,6 @@
 namespace gearlash {
 namespace {
 
-std::string value_text(const ChangeableNumber& number, double value, const AngleUnit& angle) {
-  if (number.is_backlash()) {
-    return angle_text(value, angle, usual_digits);
-  }
-  return significant(value, usual_digits) + (number.unit == "1" ? "" : " " + number.unit);
-}
-
-std::string boundary_text(const ChangeableNumber& number, const ParameterMargin& margin,
-                          const std::optional<double>& value, const AngleUnit& angle) {
-  if (!value) return "–";
-  const std::string text = value_text(number, *value, angle);
-  return margin.present > 0.0 ? text + " (" + change_text(*value / margin.present) + ")" : text;
-}
-
 std::string overall_text(const OverallMargin& overall, bool hunts) {
   switch (overall.outcome) {
     case MarginOutcome::found:
@@ -48,8 +34,6 @@ std::string overall_text(const OverallMargin& overall, bool hunts) {
       change_text(std::exp(change.load_inertia)), change_text(std::exp(change.motor_friction)),
       change_text(std::exp(change.load_friction)), change_text(std::exp(change.stiffness)));
 }
-
-// ---- drives that are searched -------------------------------------------------------------------
 
 std::string border_text(const ParameterText& text, const ParameterMargin& margin,
                         const std::optional<double>& value) {
@@ -100,6 +84,7 @@ std::string searched_text(const Drive& drive, const HuntingMargin& margin, const
   std::string grids;
   double located = 0.0;
   for (const ParameterMargin& one : margin.parameters) {
+    if (one.kind != SearchKind::searched) continue;
     const ParameterText text(drive, one.parameter, angle);
     grids +=
         (grids.empty() ? "" : "; ") + fmt::format("{}, {} values", one.parameter, one.grid.size());
@@ -108,6 +93,7 @@ std::string searched_text(const Drive& drive, const HuntingMargin& margin, const
     }
     located = std::max(located, one.located);
   }
+  if (grids.empty()) return "";
   std::string text =
       "Searched, not proved: a border nearer than the distance of two values tried "
       "may be missed (" +
@@ -115,9 +101,20 @@ std::string searched_text(const Drive& drive, const HuntingMargin& margin, const
   if (located > 0.0) {
     text += " Borders are located to " + significant(located, 1) + " of their value.";
   }
-  text += undecided_text(drive, margin, angle);
-  if (margin.stopped) text += " The search was stopped: what it did not reach is left out.";
-  return text;
+  return text + undecided_text(drive, margin, angle);
+}
+
+/// What a scan leaves open, where faces bounce.
+std::string scanned_text(const HuntingMargin& margin) {
+  const bool is_scanned =
+      std::any_of(margin.parameters.begin(), margin.parameters.end(),
+                  [](const ParameterMargin& one) { return one.kind == SearchKind::scanned; });
+  if (!is_scanned) return "";
+  return std::string(
+             "With bounces, the values above come from a scan and are not proved to be the "
+             "nearest. "
+             "The combined change is the smallest after which rest ") +
+         (margin.hunts ? "is stable; hunting may remain beside it." : "is unstable.");
 }
 
 /// "motor amplitude".
@@ -175,15 +172,6 @@ Json json_combined(const std::optional<CombinedMargin>& combined) {
           {"factors", std::move(factors)}};
 }
 
-template <class OfParameter>
-Json json_margin(const HuntingMargin& margin, const OfParameter& of_parameter) {
-  return {{"hunts", margin.is_known ? Json(margin.hunts) : Json(nullptr)},
-          {"parameters", json_list(margin.parameters, of_parameter)},
-          {"overall", json_overall(margin.overall)},
-          {"combined", json_combined(margin.combined)},
-          {"stopped", margin.stopped}};
-}
-
 }  // namespace
 
 Quantity quantity_of_effect(const Jacobian& sensitivity) {
@@ -210,32 +198,6 @@ std::vector<std::size_t> by_falling_effect(const Jacobian& sensitivity) {
   return order;
 }
 
-std::string margin_text(const ChangeableDrive& drive, const HuntingMargin& margin,
-                        const AngleUnit& angle) {
-  std::vector<std::vector<std::string>> rows = {{"parameter", "now", "down to", "up to"}};
-  const bool hunts = margin.hunts;
-  for (const ParameterMargin& one : margin.parameters) {
-    if (!one.below && !one.above) continue;
-    const ChangeableNumber& number = drive.number(one.parameter);
-    rows.push_back({number.name, value_text(number, one.present, angle),
-                    boundary_text(number, one, one.below, angle),
-                    boundary_text(number, one, one.above, angle)});
-  }
-  const std::string what = hunts ? "Where hunting ends" : "Where hunting begins";
-  std::string text =
-      what + ", one parameter at a time" +
-      (rows.size() == 1 ? ": nowhere within a factor of a thousand\n" : "\n" + table_text(rows));
-  std::string rest = overall_text(*margin.overall, hunts);
-  if (drive.drivetrain().restitution > 0.0) {
-    rest += (rest.empty() ? "" : " ") +
-            std::string(
-                "With bounces, the values above come from a scan and are not proved to be the "
-                "nearest. The combined change is the smallest after which rest ") +
-            (hunts ? "is stable; hunting may remain beside it." : "is unstable.");
-  }
-  return rest.empty() ? text : text + wrapped(rest);
-}
-
 std::string margin_text(const Drive& drive, const HuntingMargin& margin, const AngleUnit& angle) {
   std::vector<std::vector<std::string>> rows = {{"parameter", "now", "down to", "up to"}};
   for (const ParameterMargin& one : margin.parameters) {
@@ -244,12 +206,25 @@ std::string margin_text(const Drive& drive, const HuntingMargin& margin, const A
     rows.push_back({one.parameter, text.of(one.present), border_text(text, one, one.below),
                     text.is_word() ? choices_text(text, one) : border_text(text, one, one.above)});
   }
+  const bool is_closed = margin.overall.has_value();
   const std::string what = !margin.is_known ? "Where it is known to come to rest"
-                           : margin.hunts   ? "Where it comes to rest"
-                                            : "Where it begins to hunt or to run away";
+                           : is_closed
+                               ? (margin.hunts ? "Where hunting ends" : "Where hunting begins")
+                           : margin.hunts ? "Where it comes to rest"
+                                          : "Where it begins to hunt or to run away";
+  const std::string nowhere = is_closed ? ": nowhere within a factor of a thousand\n"
+                                        : ": nowhere among the values tried\n";
+  std::string rest = combined_text(margin);
+  const auto add = [&](const std::string& more) {
+    if (!more.empty()) rest += (rest.empty() || rest.back() == ' ' ? "" : " ") + more;
+  };
+  if (is_closed) add(overall_text(*margin.overall, margin.hunts));
+  add(scanned_text(margin));
+  add(searched_text(drive, margin, angle));
+  if (margin.stopped) add("The search was stopped: what it did not reach is left out.");
   return what + ", one parameter at a time" +
-         (rows.size() == 1 ? ": nowhere among the values tried\n" : "\n" + table_text(rows)) +
-         wrapped(combined_text(margin) + searched_text(drive, margin, angle));
+         (rows.size() == 1 ? nowhere : "\n" + table_text(rows)) +
+         (rest.empty() ? "" : wrapped(rest));
 }
 
 std::string sensitivity_text(const Jacobian& sensitivity) {
@@ -280,18 +255,17 @@ std::string sensitivity_text(const Jacobian& sensitivity) {
   return text + table_text(rows);
 }
 
-nlohmann::ordered_json margin_json(const ChangeableDrive& drive, const HuntingMargin& margin) {
-  return json_margin(margin, [&](const ParameterMargin& one) {
-    return json_margin_of(one, drive.number(one.parameter).unit, &json_number);
-  });
-}
-
 nlohmann::ordered_json margin_json(const Drive& drive, const HuntingMargin& margin) {
-  return json_margin(margin, [&](const ParameterMargin& one) {
+  const auto of_parameter = [&](const ParameterMargin& one) {
     const Axis axis{.path = one.parameter};
     return json_margin_of(one, unit_of(axis, drive),
                           [&](double value) { return json_value(axis, drive, value); });
-  });
+  };
+  return {{"hunts", margin.is_known ? Json(margin.hunts) : Json(nullptr)},
+          {"parameters", json_list(margin.parameters, of_parameter)},
+          {"overall", json_overall(margin.overall)},
+          {"combined", json_combined(margin.combined)},
+          {"stopped", margin.stopped}};
 }
 
 nlohmann::ordered_json sensitivity_json(const Jacobian& jacobian) {

@@ -7,23 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "analysis/design/changeable_drive.hpp"
 #include "gearlash/design.hpp"
 #include "gearlash/sensitivity.hpp"
 #include "output/report_units.hpp"
 
 namespace gearlash {
 
-/// A table of each parameter's change until hunting stops or starts, and the smallest combined
-/// change.
-std::string margin_text(const ChangeableDrive& drive, const HuntingMargin& margin,
-                        const AngleUnit& angle);
-/// The same of a drive that was searched, and what that leaves open.
+/// A table of each parameter's change until hunting stops or starts, the smallest combined change,
+/// and what a search leaves open.
 std::string margin_text(const Drive& drive, const HuntingMargin& margin, const AngleUnit& angle);
 /// Elasticities, the largest first; or one line that says why there are none.
 std::string sensitivity_text(const Jacobian& sensitivity);
 
-nlohmann::ordered_json margin_json(const ChangeableDrive& drive, const HuntingMargin& margin);
 nlohmann::ordered_json margin_json(const Drive& drive, const HuntingMargin& margin);
 nlohmann::ordered_json sensitivity_json(const Jacobian& jacobian);
 

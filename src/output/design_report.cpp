@@ -3,262 +3,486 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+#include <numbers>
 
+#include "analysis/design/proved_values.hpp"
 #include "analysis/design/target.hpp"
+#include "analysis/design/toleranced_drive.hpp"
+#include "analysis/grid/axis.hpp"
+#include "model/reduced_drive.hpp"
 #include "output/columns.hpp"
 #include "output/drive_text.hpp"
 #include "output/json_values.hpp"
+#include "output/parameter_text.hpp"
 
 namespace gearlash {
 namespace {
 
-constexpr int limit_digits = 6;
+constexpr int few_digits = 3;
+constexpr double degree = std::numbers::pi / 180.0;
 
-/// The limit in few digits, rounded to the wanted side of the exact value.
-std::string rounded(double value, bool up) {
-  std::string text = significant(value, limit_digits);
-  const double read = std::stod(text);
-  if (value == 0.0 || (up ? read >= value : read <= value)) return text;
-  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - (limit_digits - 1));
-  return significant(read + (up ? unit : -unit), limit_digits);
+/// What a change costs, in the order of names_of_costs(): of a closed form the figures of its
+/// normal form, relative to the present ones.
+std::vector<std::string> names_of_costs(const DesignReport& report) {
+  if (report.present.answer.normal_form) return {"ω_n", "ζ", "K"};
+  return {"static error", "rise", "overshoot", "settles", "bandwidth", "phase margin"};
 }
 
-/// The unit of a parameter in text: the author's unit of angles for the backlash, else SI.
-struct ShownUnit {
-  std::string name;
-  double size = 1.0;
-};
-
-ShownUnit shown_unit(const DesignReport& report, const std::string& parameter) {
-  const ChangeableNumber& number = report.drive.number(parameter);
-  if (number.is_backlash()) return {" " + report.angle.name, report.angle.radians};
-  return {number.unit == "1" ? "" : " " + number.unit, 1.0};
+std::string change_between(const std::optional<double>& before,
+                           const std::optional<double>& after) {
+  if (!before || !after) return "";
+  return *before == *after ? "0 %" : change_text(*after / *before);
 }
 
-std::string interval_text(const Bounds& interval, const Bounds& searched, const ShownUnit& unit) {
-  const std::string low = rounded(interval.low / unit.size, true);
-  const std::string high = rounded(interval.high / unit.size, false);
-  const bool from_start = interval.low <= searched.low;
-  const bool to_end = interval.high >= searched.high;
-  if (from_start && to_end) return "any";
-  if (from_start) return "at most " + high + unit.name;
-  if (to_end) return "at least " + low + unit.name;
-  return low + " to " + high + unit.name;
-}
-
-/// The relative change; empty if the present value is 0.
-std::string change_from(double present, double value) {
-  if (value == present) return "0 %";
-  return present == 0.0 ? "" : change_text(value / present);
-}
-
-std::string performance_text(const Performance& performance, const DesignReport& report) {
-  if (performance.verdict == Verdict::cannot_hunt) {
-    return "at rest (growth " + significant(performance.growth_at_rest, 3) + ")";
+std::vector<std::string> costs_text(const DesignReport& report, const DriveWithValue& one) {
+  if (const auto& before = report.present.answer.normal_form) {
+    const NormalFormNumbers after = one.answer.normal_form.value_or(NormalFormNumbers{});
+    return {change_between(before->natural_frequency, after.natural_frequency),
+            significant(after.damping, few_digits),
+            change_between(before->stiffness, after.stiffness)};
   }
-  if (std::isnan(performance.amplitude)) return name_of(performance.verdict);
-  std::string text = swing_text(performance.amplitude, report.angle, 3);
-  if (!report.is_normalized) text += " at " + significant(performance.frequency, 3) + " Hz";
-  return text;
+  const auto error = one.answer.value(Quantity::static_error);
+  const StepResponse response = one.answer.step.value_or(StepResponse{});
+  const LinearLoop loop = one.answer.loop.value_or(LinearLoop{});
+  const auto time = [](const std::optional<double>& seconds) {
+    return seconds ? significant(*seconds, few_digits) + " s" : "";
+  };
+  return {error ? angle_text(*error, report.angle, few_digits) : "",
+          time(response.rise_time),
+          response.overshoot ? fmt::format("{:.1f} %", 100.0 * *response.overshoot) : "",
+          time(response.settling_time),
+          loop.bandwidth ? significant(*loop.bandwidth, few_digits) + " Hz" : "",
+          loop.phase_margin ? fmt::format("{:.1f} deg", *loop.phase_margin / degree) : ""};
 }
 
-/// The value nearest to the present one within an interval.
-double nearest_in(const Bounds& interval, double present) {
-  return std::clamp(present, interval.low, interval.high);
+std::string result_of(const DesignReport& report, const Answer& answer) {
+  return result_text(answer, report.angle, is_normalized(report.drive));
 }
 
-std::vector<std::string> header() {
-  return {"parameter", "now", "meets the target", "change", "ω_n", "ζ", "K", "result"};
+/// Of what was searched value by value the ends are those of a grid, and are named.
+std::string interval_text(const ParameterText& shown, const FeasibleValues& values,
+                          const Bounds& interval) {
+  const bool from_start = interval.low <= values.searched.low;
+  const bool to_end = interval.high >= values.searched.high;
+  if (values.kind == SearchKind::searched || (!from_start && !to_end)) return shown.of(interval);
+  if (from_start && to_end) return "any";
+  return from_start ? "at most " + shown.at_most(interval.high)
+                    : "at least " + shown.at_least(interval.low);
 }
 
 /// The first row of a parameter names it; further rows are alternatives.
-std::vector<std::string> interval_row(const DesignReport& report, const FeasibleValues& values,
-                                      std::size_t index) {
-  const std::string& parameter = values.parameter;
-  const Bounds& interval = values.intervals[index];
-  const ShownUnit unit = shown_unit(report, parameter);
-  const double value = nearest_in(interval, values.present);
-  const Drivetrain& present = report.drive.drivetrain();
-  const Drivetrain changed = report.drive.with(parameter, value);
+std::vector<std::string> row_text(const DesignReport& report, const DesignedParameter& parameter,
+                                  std::size_t index) {
+  const FeasibleValues& values = parameter.values;
+  const ParameterText text(report.drive, values.parameter, report.angle);
+  const DriveWithValue& one = parameter.results[index];
+  const bool has_ratio = !text.is_word() && values.present != 0.0 && !std::isnan(values.present);
   const bool is_first = index == 0;
-  return {is_first ? parameter : "  or",
-          is_first ? significant(values.present / unit.size, limit_digits) + unit.name : "",
-          interval_text(interval, values.searched, unit),
-          change_from(values.present, value),
-          change_from(natural_frequency(present), natural_frequency(changed)),
-          significant(normalize(changed).damping, 3),
-          change_from(present.stiffness, changed.stiffness),
-          performance_text(performance_of(changed), report)};
+  std::string change;
+  if (one.value == values.present) {
+    change = "0 %";
+  } else if (has_ratio) {
+    change = change_text(one.value / values.present);
+  }
+  std::vector<std::string> row = {
+      is_first ? values.parameter : "  or", is_first ? text.of(values.present) : "",
+      interval_text(text, values, values.intervals[index]), change, result_of(report, one.answer)};
+  for (std::string& cell : costs_text(report, one)) row.push_back(std::move(cell));
+  return row;
 }
 
-/// One line on why no value meets the target.
-std::string reason(const DesignReport& report, const FeasibleValues& values) {
-  const ShownUnit unit = shown_unit(report, values.parameter);
-  const auto shown = [&](double value) {
-    return significant(value / unit.size, limit_digits) + unit.name;
-  };
-  std::string text = values.parameter + ": ";
-  if (values.searched.low == values.searched.high) return text + "is 0 and has no multiples";
-  if (report.drive.number(values.parameter).is_backlash() &&
-      (report.target.no_hunting || report.target.no_hunting_if_disturbed ||
-       !std::isinf(report.target.permitted(Quantity::growth_at_rest).high))) {
-    return text + "no value stops the hunting; the amplitude is proportional to it";
+std::string table_of_results(const DesignReport& report) {
+  std::vector<std::vector<std::string>> rows = {
+      {"parameter", "now", "meets the target", "change", "result"}};
+  for (std::string& name : names_of_costs(report)) rows.front().push_back(std::move(name));
+  for (const DesignedParameter& parameter : report.parameters) {
+    for (std::size_t i = 0; i < parameter.values.intervals.size(); ++i) {
+      rows.push_back(row_text(report, parameter, i));
+    }
   }
-  text += fmt::format("no value from {} to {}", shown(values.searched.low),
-                      shown(values.searched.high));
-  text += values.kind == SearchKind::certified ? "" : " of those tried";
-  const Performance closest = performance_of(report.drive.with(values.parameter, *values.closest));
-  return text + fmt::format("; closest is {} with {} (growth at rest {})", shown(*values.closest),
-                            performance_text(closest, report),
-                            significant(closest.growth_at_rest, 3));
+  if (rows.size() == 1) return "";
+  const std::string costs =
+      report.present.answer.normal_form
+          ? "ω_n, ζ and K show its cost"
+          : "its result at the value nearest to the present one,\na step of the reference of " +
+                angle_text(report.present.answer.step.value_or(StepResponse{}).step, report.angle,
+                           few_digits) +
+                ", and the linear loop without the gap";
+  return "One change by itself, other parameters fixed; " + costs + "\n" + table_text(rows) + "\n";
+}
+
+/// Why no value meets the target.
+std::string reason(const DesignReport& report, const DesignedParameter& parameter) {
+  const FeasibleValues& values = parameter.values;
+  const ParameterText shown(report.drive, values.parameter, report.angle);
+  if (values.searched.low == values.searched.high && values.searched.low == 0.0) {
+    return "is 0 and has no multiples";
+  }
+  const Target& target = report.target;
+  const bool asks_for_rest = target.no_hunting || target.no_hunting_if_disturbed ||
+                             !std::isinf(target.permitted(Quantity::growth_at_rest).high);
+  if (asks_for_rest && values.kind != SearchKind::searched &&
+      values.parameter == path_of_backlash(report.drive)) {
+    return "no value stops the hunting; the amplitude is proportional to it";
+  }
+  const std::string tried = values.kind == SearchKind::certified ? "" : " of those tried";
+  const std::string what = shown.is_word()
+                               ? "no choice"
+                               : "no value" + tried + " from " + shown.of(values.searched.low) +
+                                     " to " + shown.of(values.searched.high);
+  return what + "; closest is " + shown.of(*values.closest) + " (" +
+         result_of(report, parameter.results.at(0).answer) + ")";
+}
+
+std::string reasons(const DesignReport& report) {
+  std::string text;
+  for (const DesignedParameter& parameter : report.parameters) {
+    const FeasibleValues& values = parameter.values;
+    if (!values.intervals.empty() || values.stopped) continue;
+    text += "  " + values.parameter + ": " + reason(report, parameter) + "\n";
+  }
+  return text.empty() ? "" : "No value meets the target\n" + text + "\n";
+}
+
+std::string border_text(const ParameterText& shown, const Border& border) {
+  const std::string at = shown.of(border.at);
+  switch (border.kind) {
+    case BorderKind::limit:
+      return "the target's limit is reached";
+    case BorderKind::fold:
+      return "fold at " + at + ": a stable and an unstable limit cycle meet and end";
+    case BorderKind::branching:
+      return "branching at " + at + ": another limit cycle crosses this one";
+    case BorderKind::flip:
+      return "flip at " + at + ": a limit cycle of twice the period begins";
+    case BorderKind::neimark_sacker:
+      return "Neimark–Sacker bifurcation at " + at +
+             ": a limit cycle gives way to motion on a torus";
+    case BorderKind::grazing:
+      return "grazing at " + at + ": a limit cycle touches \"" + border.event + "\"";
+    case BorderKind::endless_period:
+      return "the period of a limit cycle grows beyond all bounds near " + at;
+    case BorderKind::rest:
+      return "starts that lead to rest appear or vanish";
+    case BorderKind::unnamed:
+      break;
+  }
+  return "the motion changes; no limit cycle that was followed accounts for it";
+}
+
+std::string borders_text(const DesignReport& report) {
+  std::vector<std::vector<std::string>> rows;
+  for (const DesignedParameter& parameter : report.parameters) {
+    const ParameterText shown(report.drive, parameter.values.parameter, report.angle);
+    for (const Border& border : parameter.values.borders) {
+      rows.push_back(
+          {parameter.values.parameter, shown.of(border.end), border_text(shown, border)});
+    }
+  }
+  if (rows.empty()) return "";
+  rows.insert(rows.begin(), {"parameter", "end", "what happens there"});
+  return "Where intervals end\n" + table_text(rows) + "\n";
 }
 
 /// Bounds usually enclose a limit to 1e-9 of its value; wider undecided parts are reported.
-bool is_worth_naming(const FeasibleValues& answer) {
+bool is_worth_naming(const FeasibleValues& values, const Bounds& part) {
   constexpr double narrow = 1e-6;
-  return std::any_of(answer.undecided.begin(), answer.undecided.end(), [&](const Bounds& part) {
-    return answer.kind == SearchKind::scanned || part.high - part.low > narrow * part.high;
-  });
+  return values.kind != SearchKind::certified || part.high - part.low > narrow * part.high;
 }
 
-/// The undecided parts of the range of all parameters with this kind of search.
+/// The undecided parts of the ranges that were searched in this way.
 std::string undecided_parts(const DesignReport& report, SearchKind kind) {
+  constexpr std::size_t most_named = 4;
   std::string parts;
-  for (const FeasibleValues& answer : report.answers) {
-    if (answer.kind != kind || !is_worth_naming(answer)) continue;
-    const ShownUnit unit = shown_unit(report, answer.parameter);
-    parts += (parts.empty() ? "" : "; ") + answer.parameter;
-    constexpr std::size_t most_named = 4;
-    const std::size_t named = std::min(most_named, answer.undecided.size());
-    for (std::size_t i = 0; i < named; ++i) {
-      const Bounds& part = answer.undecided[i];
-      parts += fmt::format("{} {} to {}{}", i == 0 ? "" : ",", rounded(part.low / unit.size, false),
-                           rounded(part.high / unit.size, true), unit.name);
+  for (const DesignedParameter& parameter : report.parameters) {
+    const FeasibleValues& values = parameter.values;
+    if (values.kind != kind) continue;
+    const ParameterText shown(report.drive, values.parameter, report.angle);
+    std::size_t count = 0;
+    for (const Bounds& part : values.undecided) {
+      if (!is_worth_naming(values, part) || ++count > most_named) continue;
+      parts += (parts.empty() ? "" : "; ") + values.parameter + " " + shown.of(part);
     }
-    if (named < answer.undecided.size()) {
-      parts += fmt::format(" and {} more", answer.undecided.size() - named);
-    }
+    if (count > most_named) parts += fmt::format(" and {} more", count - most_named);
   }
   return parts;
 }
 
-std::string certainty(const DesignReport& report) {
-  if (!report.answers.empty() && report.answers.back().stopped) {
-    return "The search over " + report.answers.back().parameter +
-           " was stopped. This list is not complete.";
+/// What is proved of the intervals of a target on ceilings; empty for other targets.
+std::string proofs_text(const DesignReport& report) {
+  std::string text;
+  for (const DesignedParameter& parameter : report.parameters) {
+    const FeasibleValues& values = parameter.values;
+    const ParameterText shown(report.drive, values.parameter, report.angle);
+    for (std::size_t i = 0; i < values.proofs.size(); ++i) {
+      const IntervalProof& proof = values.proofs[i];
+      text += "  " + values.parameter + " " + shown.of(values.intervals[i]) + ": ";
+      if (proof.parts.empty()) {
+        text += "searched, not proved: " + proof.reason + "\n";
+        continue;
+      }
+      text += "proved for";
+      for (const Bounds& part : proof.parts) {
+        text += (&part == &proof.parts.front() ? " " : " and ") + shown.of(part);
+      }
+      text += fmt::format(" ({} {})\n", proof.boxes, proof.boxes == 1 ? "box" : "boxes");
+    }
   }
+  if (text.empty()) return "";
+  const bool is_all =
+      std::all_of(report.target.limits.begin(), report.target.limits.end(), &is_provable) &&
+      !report.target.no_hunting && !report.target.no_hunting_if_disturbed &&
+      !report.target.no_runaway;
+  return (is_all ? "Every value of these parts meets the target\n"
+                 : "Every value of these parts keeps the limits of ceilings\n") +
+         text + "\n";
+}
+
+/// "bandwidth, phase margin".
+std::string names_of(const Target& limits) {
+  std::string names;
+  for (const QuantityLimit& limit : limits.limits) {
+    std::string name(name_of(limit.quantity));
+    std::replace(name.begin(), name.end(), '_', ' ');
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  return names;
+}
+
+/// Whether the motion was searched at all, and not figures alone.
+bool is_of_figures(const DesignReport& report, const FeasibleValues& values) {
+  return values.searched_within == report.target;
+}
+
+/// A number that is 0 and has no multiples.
+bool is_empty_range(const FeasibleValues& values) {
+  return values.searched.low == values.searched.high && values.intervals.empty();
+}
+
+/// The parameters that were searched in this way: "load.friction, gearbox.ratio".
+std::string names_of(const DesignReport& report, SearchKind kind) {
+  std::string names;
+  for (const DesignedParameter& parameter : report.parameters) {
+    const FeasibleValues& values = parameter.values;
+    if (values.kind != kind || is_empty_range(values) || is_of_figures(report, values)) continue;
+    names += (names.empty() ? "" : ", ") + parameter.values.parameter;
+  }
+  return names;
+}
+
+std::string certified_text(const DesignReport& report) {
+  const std::string names = names_of(report, SearchKind::certified);
+  if (names.empty()) return "";
+  std::string text = names_of(report, SearchKind::scanned).empty() &&
+                             names_of(report, SearchKind::searched).empty()
+                         ? "This list is complete"
+                         : "The list is complete for " + names;
+  text +=
+      " within the range given, else from 0.001 to 1000 times the present value; for friction and "
+      "feedback, up to ten times critical damping. Interval bounds over the whole range prove it.";
+  const std::string open = undecided_parts(report, SearchKind::certified);
+  if (open.empty()) return text;
+  return text + " These parts are open, because they touch a limit to within rounding: " + open +
+         ".";
+}
+
+std::string scanned_text(const DesignReport& report) {
+  const std::string names = names_of(report, SearchKind::scanned);
+  if (names.empty()) return "";
+  const std::string text =
+      "Scanned, not proved: " + names + ". Many values were tried, and others may be missed.";
+  const std::string open = undecided_parts(report, SearchKind::scanned);
+  if (open.empty()) return text;
+  return text +
+         " No claim is made for these parts, because the motion does not repeat or takes too long "
+         "to follow, and values that meet the target may come and go: " +
+         open + ".";
+}
+
+std::string searched_text(const DesignReport& report) {
+  std::string grids;
+  double located = 0.0;
+  for (const DesignedParameter& parameter : report.parameters) {
+    const FeasibleValues& values = parameter.values;
+    if (values.kind != SearchKind::searched) continue;
+    const ParameterText shown(report.drive, values.parameter, report.angle);
+    grids += (grids.empty() ? "" : "; ") +
+             fmt::format("{}, {} values", values.parameter, values.grid.size());
+    if (!shown.is_word()) {
+      grids += " from " + shown.of(values.searched.low) + " to " + shown.of(values.searched.high);
+    }
+    located = std::max(located, values.located);
+  }
+  if (grids.empty()) return "";
   std::string text =
-      "This list is complete for 0.001 to 1000 times the present value; for friction and feedback, "
-      "up to ten times critical damping. Interval bounds over the whole range prove it";
-  std::string scanned;
-  for (const FeasibleValues& answer : report.answers) {
-    if (answer.kind == SearchKind::certified) continue;
-    scanned += (scanned.empty() ? "" : ", ") + answer.parameter;
+      "Searched, not proved: at each value of a grid the drive was followed from many starts (" +
+      grids + "). What is narrower than the distance of two values may be missed.";
+  if (located > 0.0) {
+    text += " Ends of intervals are located to " + significant(located, 1) +
+            " of their value, by following the drive from value to value, and were searched again.";
   }
-  text += scanned.empty() ? "."
-                          : ", except for " + scanned +
-                                ": with bounces, many values were tried, and others may be missed.";
-  if (const std::string open = undecided_parts(report, SearchKind::certified); !open.empty()) {
-    text += " These parts are open, because they touch a limit to within rounding: " + open + ".";
+  const std::string open = undecided_parts(report, SearchKind::searched);
+  return open.empty() ? text : text + " Undecided: " + open + ".";
+}
+
+/// The conditions that were scanned within what the others permit: "bandwidth, overshoot".
+std::string within_text(const DesignReport& report) {
+  for (const DesignedParameter& parameter : report.parameters) {
+    const FeasibleValues& values = parameter.values;
+    if (is_empty(values.searched_within)) continue;
+    const std::string where =
+        is_of_figures(report, values) ? "Computed" : "Within these values computed";
+    return where + " at many values, not bounded: " + names_of(values.searched_within) +
+           ". What is narrower than the distance of two values may be missed.";
   }
-  if (const std::string open = undecided_parts(report, SearchKind::scanned); !open.empty()) {
-    text +=
-        " No claim is made for these parts, because the motion does not repeat or takes too long "
-        "to "
-        "follow, and values that meet the target may come and go: " +
-        open + ".";
+  return "";
+}
+
+std::string certainty(const DesignReport& report) {
+  std::string text;
+  const auto add = [&](const std::string& sentence) {
+    if (!sentence.empty()) text += (text.empty() ? "" : " ") + sentence;
+  };
+  add(certified_text(report));
+  add(scanned_text(report));
+  add(searched_text(report));
+  add(within_text(report));
+  for (const DesignedParameter& parameter : report.parameters) {
+    if (!parameter.values.stopped) continue;
+    add("The search over " + parameter.values.parameter +
+        " was stopped: the values that it did not reach are undecided.");
   }
   return text;
 }
 
-Json json_loop(const Drivetrain& drive) {
-  return {{"natural_frequency", json_number(natural_frequency(drive))},
-          {"damping", json_number(normalize(drive).damping)},
-          {"stiffness", json_number(drive.stiffness)}};
+// ---- JSON ---------------------------------------------------------------------------------------
+
+Json json_performance(const Answer& answer) {
+  return {{"verdict", name_of(answer.verdict)},
+          {"growth_at_rest", json_optional(answer.growth_at_rest)},
+          {"amplitude", json_optional(answer.value(Quantity::amplitude))},
+          {"frequency", json_optional(answer.value(Quantity::frequency))},
+          {"static_error", json_optional(answer.value(Quantity::static_error))}};
 }
 
-/// A value of the parameter and the drive's behaviour with it.
-Json json_value(const DesignReport& report, const FeasibleValues& values, double value) {
-  const Drivetrain changed = report.drive.with(values.parameter, value);
-  const double change = values.present == 0.0 ? std::numeric_limits<double>::quiet_NaN()
-                                              : 100.0 * (value / values.present - 1.0);
-  return {{"value", json_number(value)},
-          {"change_percent", json_number(change)},
-          {"performance", json_performance(performance_of(changed))},
-          {"loop", json_loop(changed)}};
+Json json_response(const Answer& answer) {
+  const StepResponse response = answer.step.value_or(StepResponse{});
+  return {{"step", json_number(response.step)},
+          {"rise_time", json_optional(response.rise_time)},
+          {"overshoot", json_optional(response.overshoot)},
+          {"settling_time", json_optional(response.settling_time)}};
 }
 
-Json json_answer(const DesignReport& report, const FeasibleValues& values) {
-  const ChangeableNumber& number = report.drive.number(values.parameter);
-  const std::optional<double> nearest = values.nearest();
-  return {{"parameter", number.name},
-          {"description", number.description},
-          {"unit", number.unit},
-          {"present", json_number(values.present)},
-          {"searched", json_bounds(values.searched)},
+Json json_loop(const std::optional<LinearLoop>& loop) {
+  if (!loop) return nullptr;
+  return {{"stable", loop->is_stable},
+          {"bandwidth", json_optional(loop->bandwidth)},
+          {"crossover", json_optional(loop->crossover)},
+          {"phase_margin", json_optional(loop->phase_margin)}};
+}
+
+Json json_form(const std::optional<NormalFormNumbers>& form) {
+  if (!form) return nullptr;
+  return {{"natural_frequency", json_number(form->natural_frequency)},
+          {"damping", json_number(form->damping)},
+          {"stiffness", json_optional(form->stiffness)}};
+}
+
+Json json_result(const Drive& drive, const FeasibleValues& values, const DriveWithValue& one) {
+  const Axis axis{.path = values.parameter};
+  const bool is_word = !parameter_of(axis, drive)->choices.empty();
+  const bool has_ratio = !is_word && values.present != 0.0;
+  return {{"value", json_value(axis, drive, one.value)},
+          {"change_percent",
+           has_ratio ? json_number(100.0 * (one.value / values.present - 1.0)) : Json(nullptr)},
+          {"performance", json_performance(one.answer)},
+          {"normal_form", json_form(one.answer.normal_form)},
+          {"loop", json_loop(one.answer.loop)},
+          {"response", json_response(one.answer)}};
+}
+
+Json json_parameter(const Drive& drive, const DesignedParameter& parameter) {
+  const FeasibleValues& values = parameter.values;
+  const Axis axis{.path = values.parameter};
+  const auto of_value = [&](double value) { return json_value(axis, drive, value); };
+  const auto of_interval = [&](const Bounds& interval) {
+    return Json{{"from", of_value(interval.low)}, {"to", of_value(interval.high)}};
+  };
+  const auto nearest = std::min_element(
+      parameter.results.begin(), parameter.results.end(), [&](const auto& a, const auto& b) {
+        const auto distance = [&](double value) {
+          return value > 0.0 && values.present > 0.0 ? std::abs(std::log(value / values.present))
+                                                     : std::abs(value - values.present);
+        };
+        return distance(a.value) < distance(b.value);
+      });
+  const Json best =
+      nearest == parameter.results.end() ? Json(nullptr) : json_result(drive, values, *nearest);
+  return {{"parameter", values.parameter},
+          {"description", parameter_of(axis, drive)->meaning},
+          {"unit", unit_of(axis, drive)},
+          {"present", of_value(values.present)},
+          {"searched", of_interval(values.searched)},
           {"certified", values.kind == SearchKind::certified && !values.stopped},
           {"stopped", values.stopped},
-          {"intervals", json_list(values.intervals, &json_bounds)},
-          {"undecided", json_list(values.undecided, &json_bounds)},
-          {"nearest", nearest ? json_value(report, values, *nearest) : Json(nullptr)},
-          {"closest", nearest ? Json(nullptr) : json_value(report, values, *values.closest)}};
-}
-
-/// Whether the present drive meets the target; with plastic contact only as far as proved for the
-/// data.
-Judgement judge_present(const DesignReport& report, const Performance& present) {
-  const Drivetrain& drive = report.drive.drivetrain();
-  if (servo_dynamics(normalize(drive)).plastic_contact()) {
-    return judge(report.target, report.drive.box(), present.flight_time);
-  }
-  return is_met(report.target, present) ? Judgement::all : Judgement::none;
-}
-
-const char* words_of(Judgement judgement) {
-  if (judgement == Judgement::some) return "on the limit of the target, to within rounding";
-  return judgement == Judgement::all ? "met" : "not met";
-}
-
-Json json_of(Judgement judgement) {
-  if (judgement == Judgement::some) return nullptr;
-  return judgement == Judgement::all;
+          {"grid", json_list(values.grid, of_value)},
+          {"located", json_number(values.located)},
+          {"intervals", json_list(values.intervals, of_interval)},
+          {"borders", json_list(values.borders,
+                                [](const Border& border) {
+                                  return Json{{"end", json_number(border.end)},
+                                              {"kind", name_of(border.kind)},
+                                              {"at", json_number(border.at)},
+                                              {"located", json_number(border.located)},
+                                              {"event", border.event.empty() ? Json(nullptr)
+                                                                             : Json(border.event)}};
+                                })},
+          {"proofs", json_list(values.proofs,
+                               [&](const IntervalProof& proof) {
+                                 const bool is_proved = !proof.parts.empty();
+                                 return Json{
+                                     {"proved", json_list(proof.parts, of_interval)},
+                                     {"boxes", proof.boxes},
+                                     {"reason", is_proved ? Json(nullptr) : Json(proof.reason)}};
+                               })},
+          {"searched_within", json_list(values.searched_within.limits,
+                                        [](const QuantityLimit& limit) {
+                                          return Json(std::string(name_of(limit.quantity)));
+                                        })},
+          {"undecided", json_list(values.undecided, of_interval)},
+          {"nearest", values.intervals.empty() ? Json(nullptr) : best},
+          {"closest", values.intervals.empty() ? best : Json(nullptr)}};
 }
 
 }  // namespace
 
 std::string design_text(const DesignReport& report) {
-  const Performance present = performance_of(report.drive.drivetrain());
-  std::string text =
-      fmt::format("target: {}\nat present: {}, {}\n\n", report.target_text,
-                  performance_text(present, report), words_of(judge_present(report, present)));
-  std::vector<std::vector<std::string>> rows = {header()};
-  std::string reasons;
-  for (const FeasibleValues& answer : report.answers) {
-    for (std::size_t i = 0; i < answer.intervals.size(); ++i) {
-      rows.push_back(interval_row(report, answer, i));
-    }
-    if (answer.intervals.empty() && !answer.stopped)
-      reasons += "  " + reason(report, answer) + "\n";
-  }
-  if (rows.size() > 1) {
-    text += "One change by itself, other parameters fixed; ω_n, ζ and K show its cost\n" +
-            table_text(rows) + "\n";
-  }
-  if (!reasons.empty()) text += "No value meets the target\n" + reasons + "\n";
-  return text + wrapped(certainty(report));
+  const Answer& present = report.present.answer;
+  const char* met = report.met == Judgement::all    ? "met"
+                    : report.met == Judgement::none ? "not met"
+                    : is_known(report.target, present)
+                        ? "on the limit of the target, to within rounding"
+                        : "undecided";
+  return fmt::format("target: {}\nat present: {}, {}\n\n", report.target_text,
+                     result_of(report, present), met) +
+         table_of_results(report) + borders_text(report) + reasons(report) + proofs_text(report) +
+         wrapped(certainty(report));
 }
 
 std::string design_json(const DesignReport& report) {
-  const Performance present = performance_of(report.drive.drivetrain());
-  Json json = json_head("design", report.drive.drive(), report.provenance);
+  const Answer& present = report.present.answer;
+  Json json = json_head("design", report.drive, report.provenance);
   json["target"] = report.target_text;
-  json["met"] = json_of(judge_present(report, present));
+  json["met"] = report.met == Judgement::some ? Json(nullptr) : Json(report.met == Judgement::all);
   json["present"] = {{"performance", json_performance(present)},
-                     {"loop", json_loop(report.drive.drivetrain())}};
-  json["answers"] = json_list(
-      report.answers, [&](const FeasibleValues& answer) { return json_answer(report, answer); });
+                     {"normal_form", json_form(present.normal_form)},
+                     {"loop", json_loop(present.loop)},
+                     {"response", json_response(present)}};
+  json["answers"] = json_list(report.parameters, [&](const DesignedParameter& parameter) {
+    return json_parameter(report.drive, parameter);
+  });
   return json.dump(2) + "\n";
 }
 

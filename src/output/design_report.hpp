@@ -4,25 +4,32 @@
 #include <string>
 #include <vector>
 
-#include "analysis/design/changeable_drive.hpp"
+#include "analysis/design/drive_with_value.hpp"
+#include "analysis/design/target.hpp"
 #include "gearlash/design.hpp"
 #include "output/report_units.hpp"
 
 namespace gearlash {
 
-struct DesignReport {
-  ChangeableDrive drive;
-  std::string target_text;  ///< as its author wrote it
-  Target target;
-  std::vector<FeasibleValues> answers;  ///< one for each requested parameter
-  AngleUnit angle = {};                 ///< of text
-  bool is_normalized = false;           ///< text then has no frequencies
-  Provenance provenance = {};
+struct DesignedParameter {
+  FeasibleValues values{};
+  std::vector<DriveWithValue> results{};  ///< with the values of nearest_of_each()
 };
 
-/// A table with a line for every interval of values that meets the target, its side effects, and
-/// the reason why other parameters cannot meet it. Limits are rounded to the side that meets the
-/// target. Ends with a newline.
+struct DesignReport {
+  Drive drive{};
+  std::string target_text{};  ///< as its author wrote it
+  Target target{};
+  DriveWithValue present{};         ///< its value is none
+  Judgement met = Judgement::some;  ///< judge_present()
+  std::vector<DesignedParameter> parameters{};
+  AngleUnit angle{};  ///< of text
+  Provenance provenance{};
+};
+
+/// A table with a line for every interval of values that meets the target, its side effects, what
+/// happens at its ends, what is proved, and the reason why other parameters cannot meet it. Limits
+/// are rounded to the side that meets the target. Ends with a newline.
 std::string design_text(const DesignReport& report);
 
 /// "gearlash/design/2" (docs/schemas), in SI. Numbers read back exactly. Ends with a newline.

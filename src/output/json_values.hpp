@@ -42,13 +42,6 @@ inline Json json_bounds(const Bounds& bounds) {
   return {{"from", json_number(bounds.low)}, {"to", json_number(bounds.high)}};
 }
 
-inline Json json_performance(const Performance& performance) {
-  return {{"verdict", name_of(performance.verdict)},
-          {"growth_at_rest", json_number(performance.growth_at_rest)},
-          {"amplitude", json_number(performance.amplitude)},
-          {"frequency", json_number(performance.frequency)}};
-}
-
 /// `Form` is NormalFormNumbers or NormalizedServo.
 template <class Form>
 Json json_normal_form(const Form& form, double natural_frequency) {

@@ -38,17 +38,21 @@ std::string ParameterText::of(const Bounds& interval) const {
          with_unit(significant(rounded_down(interval.high / size_, digits), digits));
 }
 
-std::string result_text(const Answer& answer, const AngleUnit& angle) {
+std::string result_text(const Answer& answer, const AngleUnit& angle, bool is_normalized) {
+  constexpr int few_digits = 3;
   std::string text = name_of(answer.verdict);
+  if (answer.verdict == Verdict::cannot_hunt && answer.growth_at_rest) {
+    text += " (growth " + significant(*answer.growth_at_rest, few_digits) + ")";
+  }
   const std::optional<double> load = answer.value(Quantity::amplitude);
   const std::optional<double> motor = answer.value(Quantity::motor_amplitude);
   constexpr double hardly = 1e-3;  // the load moves while the motor hunts within the gap
   const bool is_of_motor = load && motor && *load < hardly * *motor;
   const std::optional<double> amplitude = is_of_motor ? motor : load;
   if (!amplitude || *amplitude == 0.0) return text;
-  constexpr int few_digits = 3;
   text += (is_of_motor ? ": motor ±" : ": ±") + angle_text(*amplitude, angle, few_digits);
-  if (const auto frequency = answer.value(Quantity::frequency)) {
+  const auto frequency = answer.value(Quantity::frequency);
+  if (frequency && !is_normalized) {
     text += " at " + significant(*frequency, few_digits) + " Hz";
   }
   return text;

@@ -42,7 +42,7 @@ class ParameterText {
 };
 
 /// "hunts: motor ±0.218 deg at 0.261 Hz": the verdict and the largest motion, of the motor where it
-/// hunts within the gap.
-std::string result_text(const Answer& answer, const AngleUnit& angle);
+/// hunts within the gap; the growth at rest of what cannot hunt. A normal form has no frequencies.
+std::string result_text(const Answer& answer, const AngleUnit& angle, bool is_normalized = false);
 
 }  // namespace gearlash

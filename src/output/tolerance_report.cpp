@@ -162,7 +162,7 @@ std::vector<Row> number_rows(const ToleranceReport& report) {
 /// Empty where the search for it was stopped.
 std::string worst_text(const ToleranceReport& report) {
   if (report.worst.numbers.empty()) return "";
-  const Performance& worst = report.worst.performance;
+  const detail::DrawnResult& worst = report.worst.result;
   std::string text = "The worst sample found within the tolerances ";
   if (worst.verdict == Verdict::cannot_hunt && !std::isnan(worst.growth_at_rest)) {
     text += "cannot hunt (growth at rest " + significant(worst.growth_at_rest, usual_digits) + ")";
@@ -300,6 +300,13 @@ Json json_backlash(const ToleranceReport& report) {
           {"uncertainty", json_bounds(widest.uncertainty)}};
 }
 
+Json json_worst(const detail::DrawnResult& worst) {
+  return {{"verdict", name_of(worst.verdict)},
+          {"growth_at_rest", json_number(worst.growth_at_rest)},
+          {"amplitude", json_number(worst.amplitude)},
+          {"frequency", json_number(worst.frequency)}};
+}
+
 /// What is known of a study that was stopped.
 std::string stopped_text(const ToleranceReport& report) {
   const ToleranceStudy& study = report.study;
@@ -354,7 +361,7 @@ std::string tolerance_json(const ToleranceReport& report) {
   json["frequency"] = json_quantiles(study.frequency);
   json["histogram"] = json_histogram(study.histogram);
   json["parameters"] = json_parameters(report);
-  json["worst"] = json_performance(report.worst.performance);
+  json["worst"] = json_worst(report.worst.result);
   json["proved"] = {{"bound", json_optional(report.proved.bound)},
                     {"reason", report.proved.bound ? Json(nullptr) : Json(report.proved.reason)},
                     {"largest_of_single_drives", json_optional(report.proved.largest)},

@@ -5,19 +5,19 @@
 namespace gearlash {
 namespace {
 
-/// The author's unit of angles for a backlash, else 1.
-double unit_of_axis(const RegionMapTask& task, const std::string& parameter) {
-  return task.drive.number(parameter).is_backlash() ? task.angle.radians : 1.0;
+/// A parameter's unit in a picture: the author's of angles, else SI.
+AngleUnit unit_on_axis(const RegionMapTask& task, const Axis& axis) {
+  const std::string unit = unit_of(axis, task.drive);
+  return unit == "rad" ? task.angle : AngleUnit{unit == "1" ? "" : unit, 1.0};
 }
 
-ChartAxis chart_axis(const RegionMapTask& task, const ParameterAxis& axis) {
-  const ChangeableNumber& number = task.drive.number(axis.parameter);
-  const std::string& unit = number.is_backlash() ? task.angle.name : number.unit;
-  const double size = unit_of_axis(task, axis.parameter);
-  return {.label = number.description + (unit == "1" ? "" : " (" + unit + ")"),
-          .logarithmic = axis.values.logarithmic,
-          .low = axis.values.values.front() / size,
-          .high = axis.values.values.back() / size};
+ChartAxis chart_axis(const RegionMapTask& task, const Axis& axis) {
+  const AngleUnit unit = unit_on_axis(task, axis);
+  return {.label = std::string(parameter_of(axis, task.drive)->meaning) +
+                   (unit.name.empty() ? "" : " (" + unit.name + ")"),
+          .logarithmic = axis.logarithmic,
+          .low = axis.values.front() / unit.radians,
+          .high = axis.values.back() / unit.radians};
 }
 
 std::string meaning_of(Cost cost) {
@@ -34,10 +34,9 @@ std::string meaning_of(Cost cost) {
 
 }  // namespace
 
-ContourMap map_of(const RegionMapTask& task, const ParameterAxis& x, const ParameterAxis& y,
-                  Progress& progress) {
+ContourMap map_of(const RegionMapTask& task, const Axis& x, const Axis& y, Progress& progress) {
   const FeasibleRegion region = feasible_region(task.drive, x, y, task.target, task.cost, progress);
-  const MapPoint unit{unit_of_axis(task, x.parameter), unit_of_axis(task, y.parameter)};
+  const MapPoint unit{unit_on_axis(task, x).radians, unit_on_axis(task, y).radians};
   const auto shown = [&](std::vector<MapCurve> curves) {
     for (MapCurve& curve : curves) {
       for (MapPoint& point : curve) point = {point.x / unit.x, point.y / unit.y};
@@ -55,8 +54,8 @@ ContourMap map_of(const RegionMapTask& task, const ParameterAxis& x, const Param
   for (const Contour& contour : region.costs) {
     map.contours.push_back({contour.level, shown(contour.curves)});
   }
-  const MapPoint now{task.drive.present_value(x.parameter) / unit.x,
-                     task.drive.present_value(y.parameter) / unit.y};
+  const MapPoint now{*present_value(x, task.drive) / unit.x,
+                     *present_value(y, task.drive) / unit.y};
   const auto within = [](const ChartAxis& axis, double value) {
     return value >= *axis.low && value <= *axis.high;
   };

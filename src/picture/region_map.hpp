@@ -11,7 +11,7 @@ namespace gearlash {
 
 /// The subject of the map, and the author's words for it.
 struct RegionMapTask {
-  ChangeableDrive drive;
+  Drive drive{};
   Target target;
   std::string target_text;
   Cost cost = Cost::bandwidth;
@@ -20,7 +20,7 @@ struct RegionMapTask {
 
 /// Lines of equal cost, the region's boundary in bold, hatching where the target is missed, and a
 /// mark at the present drive. Stopped by Progress, it has holes.
-ContourMap map_of(const RegionMapTask& task, const ParameterAxis& x, const ParameterAxis& y,
+ContourMap map_of(const RegionMapTask& task, const Axis& x, const Axis& y,
                   Progress& progress = no_progress());
 
 }  // namespace gearlash

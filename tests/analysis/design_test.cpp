@@ -109,16 +109,12 @@ TEST(EdgeDesign, BadInputIsAFault) {
   };
   const Target quiet{.no_hunting = true};
   EXPECT_THAT(asked(sample_servo(), "servo.dumping", quiet),
-              ElementsAre(HasSubstr("parameter = servo.dumping: must be one of servo.backlash, ")));
+              ElementsAre(HasSubstr("parameter = servo.dumping: must be a number or a choice")));
   EXPECT_THAT(asked(sample_servo(), "servo.damping", amplitude_within({0.2, 0.1})),
               ElementsAre("target = amplitude >= 0.2 and amplitude <= 0.1: must not contradict "
                           "itself"));
   EXPECT_THAT(asked(with(sample_servo(), "servo.damping", -1.0), "servo.damping", quiet),
               ElementsAre(HasSubstr("servo.damping = -1")));
-  Drive compliant = sample_servo();
-  compliant.contact = CompliantContact{.stiffness = 1e4, .damping = 1e3};
-  EXPECT_THAT(asked(compliant, "servo.damping", quiet),
-              ElementsAre(HasSubstr("must have a closed-form answer for this: proportional")));
   EXPECT_THAT(faults_of([&] { (void)hunting_margin(with(sample_servo(), "servo.damping", -1.0)); }),
               ElementsAre(HasSubstr("servo.damping = -1")));
 }

@@ -36,9 +36,11 @@ TEST(ExitStatus, ThreeForAPictureThatFailsWhoseAnswerIsPrinted) {
         std::pair("compare" + sheet + " --sensor load --plot time=" + plot, "  sensor on"),
         std::pair("simulate" + sheet + " --plot phase=" + plot, "time_s,"),
         std::pair("simulate examples/robot-joint.toml --plot time=" + plot, "time_s,"),
-        std::pair("design" + sheet +
-                      " --target no-hunting --vary error_gain,load_friction --plot region=" + plot,
-                  "target: ")}) {
+        std::pair(
+            "design" + sheet +
+                " --target no-hunting --vary controller.proportional,load.friction --plot region=" +
+                plot,
+            "target: ")}) {
     const Outcome run = run_shell(without_gnuplot(scratch, "\"$GEARLASH\" " + command));
     EXPECT_EQ(run.status, 3) << command;
     EXPECT_THAT(run.out, StartsWith(answer)) << command;

@@ -50,7 +50,7 @@ TEST_F(FileNames, EveryVerbTakesATable) {
       run("map ARGUMENTS --x gearbox.ratio=50,100 --y load.inertia='1 kg m2,2 kg m2' "
           "--output map.json");
   ASSERT_LE(map.status, 1) << map.err;
-  EXPECT_NO_THROW(static_cast<void>(nlohmann::json::parse(file_text(folder_ / "map.json"))));
+  EXPECT_TRUE(nlohmann::json::accept(file_text(folder_ / "map.json")));
 }
 
 // TOML is UTF-8 and cannot name the file.

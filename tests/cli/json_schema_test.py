@@ -47,7 +47,7 @@ COMMANDS = [
     ["map", "examples/elinco-fd162.toml", "--x", "gearbox.ratio=1,2", "--y",
      "sampling.period=1 ms,10 ms"],
     ["design", "examples/elinco-fd162.toml", "--target", "no-hunting", "--parameters",
-     "gearbox.backlash,gearbox.ratio,tachometer,load.inertia"],
+     "gearbox.backlash,gearbox.ratio,controller.motor_speed_feedback,load.inertia"],
     ["design", *SERVO, "--target", "amplitude <= 0.1", "--parameters", "backlash,servo.damping"],
     ["design", *HUNTING_JOINT, "--target", "no-hunting-if-disturbed", "--parameters",
      "sensor.position,load.coulomb=0:0.2 N m:9"],

@@ -75,7 +75,6 @@ def test_a_wrong_type(servo, name, call):
     ("quantity", lambda servo: gearlash.tolerance(servo, samples=64, quantity="speed")),
     ("share", lambda servo: gearlash.widest_backlash(servo, "no-hunting", 2.0)),
     ("shares", lambda servo: gearlash.tolerance(servo, samples=64, shares=[2])),
-    ("parameters", lambda servo: gearlash.tune(servo)),
     ("points", lambda servo: gearlash.plot.motion(gearlash.simulate(servo, 1.0), points=-1)),
     ("quantity", lambda servo: gearlash.plot.sweep(
         gearlash.sweep(servo, {"servo.damping": [0.1, 0.2]}), "speed")),

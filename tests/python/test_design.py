@@ -41,7 +41,7 @@ def test_progress_of_a_design_rises_to_the_end_and_stops(pd_drive):
 def test_margins(servo):
     margin = gearlash.margins(servo)
     assert margin.hunts and margin.growth_at_rest > 1
-    of_damping = next(one for one in margin.parameters if one.parameter == "load_friction")
+    of_damping = next(one for one in margin.parameters if one.parameter == "load.friction")
     assert of_damping.above is not None
 
 

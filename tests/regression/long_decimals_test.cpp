@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "analysis/design/changeable_drive.hpp"
+#include "analysis/final_servo.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/grid.hpp"
 #include "gearlash/input.hpp"
@@ -55,9 +55,9 @@ TEST(RegressionLongDecimals, CriticalDampingIsLeftOpenByRoundedOnes) {
 
 TEST(RegressionLongDecimals, ABoxKnowsTheFrictionThatRoundingHides) {
   Drive drive = normal_form(0.5, 2.0, 1.0);
-  EXPECT_EQ(ChangeableDrive(drive).box().servo.motor_rate, (Bounds{0.0, 0.0}));
+  EXPECT_EQ(box_of(drive, *final_servo(drive)).servo.motor_rate, (Bounds{0.0, 0.0}));
   drive.is_rounded = true;
-  const Bounds rate = ChangeableDrive(drive).box().servo.motor_rate;
+  const Bounds rate = box_of(drive, *final_servo(drive)).servo.motor_rate;
   EXPECT_EQ(rate.low, 0.0);
   EXPECT_GT(rate.high, 0x1p-53);
 }

@@ -56,8 +56,8 @@ TEST(RegressionProved, BoundsHoldOfStronglyDampedServos) {
 }
 
 TEST(RegressionProved, DesignLeavesOpenWhatTheDataLeaveOpen) {
-  const ChangeableDrive drive =
-      changeable(servo_of(662.1907560443809, 1.5655166617629133e-5, .9999994345814354));
+  const Drive drive =
+      drive_of(servo_of(662.1907560443809, 1.5655166617629133e-5, .9999994345814354));
   const auto values_below = [&](double growth) {
     Target target;
     target.require(Quantity::growth_at_rest, {0.0, growth});
@@ -82,10 +82,11 @@ TEST(RegressionProved, DesignLeavesOpenWhatTheDataLeaveOpen) {
 TEST(RegressionProved, DesignDoesNotContradictItself) {
   const NormalizedServo servo =
       servo_of(67.15170913401705, .07958454908395947, 2.043082623864931e-06);
-  const ChangeableDrive drive = changeable(servo);
+  const Drive drive = drive_of(servo);
   const FeasibleValues values = feasible_values(drive, "backlash", always_at_rest());
-  const Judgement at_present =
-      judge(always_at_rest(), drive.box(), std::numeric_limits<double>::quiet_NaN());
+  const Judgement at_present = judge(
+      always_at_rest(),
+      bounds_of(box_of(drive, *final_servo(drive)), std::numeric_limits<double>::quiet_NaN()));
   // Growth at rest has nothing to do with the backlash: the whole range is as the present value is.
   if (at_present == Judgement::some) {
     ASSERT_EQ(values.undecided.size(), 1U);

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "analysis/analyse.hpp"
-#include "analysis/design/changeable_drive.hpp"
 #include "analysis/final_servo.hpp"
 #include "drive_reply.hpp"
 #include "gearlash/design.hpp"
@@ -47,16 +46,6 @@ NumberText text_of_parameter(const ParameterText& words) {
           .at_most = [&words](double value) { return words.at_most(value); }};
 }
 
-NumberText text_in_unit(const std::string& unit) {
-  constexpr int digits = 6;
-  const auto with_unit = [unit](double value) {
-    return significant(value, digits) + (unit == "1" ? "" : " " + unit);
-  };
-  return {.of = with_unit,
-          .at_least = [=](double value) { return with_unit(rounded_up(value, digits)); },
-          .at_most = [=](double value) { return with_unit(rounded_down(value, digits)); }};
-}
-
 /// The present value and the nearest ones at which hunting ends or begins, as a reader has them.
 Json margin_texts(const ParameterMargin& margin, const std::string& description, bool is_setting,
                   const NumberText& text) {
@@ -71,24 +60,19 @@ Json margin_texts(const ParameterMargin& margin, const std::string& description,
           {"choices", json_list(margin.choices, text.of)}};
 }
 
-/// `changeable`: of a margin in closed form, whose numbers are not all parameters of the drive.
-Json margins_json(const DriveText& text, const WrittenDrive& written,
-                  const std::optional<ChangeableDrive>& changeable, const HuntingMargin& margin) {
+Json margins_json(const DriveText& text, const WrittenDrive& written, const HuntingMargin& margin) {
   const ShownUnits units(text, written);
   return {{"hunts", margin.hunts},
           {"is_known", margin.is_known},
           {"is_complete", !margin.stopped},
           {"texts", json_list(margin.parameters, [&](const ParameterMargin& one) {
-             const Parameter* parameter = find_parameter(one.parameter, written.drive);
-             if (parameter != nullptr) {
-               ParameterText words(written.drive, one.parameter, written.angle);
-               const ShownUnit unit = units.of(*parameter);
-               words.show_in(unit.name, unit.in_si);
-               return margin_texts(one, std::string(parameter->meaning), true,
-                                   text_of_parameter(words));
-             }
-             const ChangeableNumber& number = changeable->number(one.parameter);
-             return margin_texts(one, number.description, false, text_in_unit(number.unit));
+             const Axis axis{.path = one.parameter};
+             const Parameter& parameter = *parameter_of(axis, written.drive);
+             ParameterText words(written.drive, one.parameter, written.angle);
+             const ShownUnit unit = units.of(parameter);
+             words.show_in(unit.name, unit.in_si);
+             return margin_texts(one, std::string(parameter.meaning),
+                                 exists(parameter, written.drive), text_of_parameter(words));
            })}};
 }
 
@@ -184,15 +168,12 @@ class Core::Session {
                       Progress& progress) {
     std::vector<Axis> axes;
     for (const Json& path : request.value("parameters", Json::array())) {
-      axes.push_back(read_axis_or_name("parameters", path.get<std::string>(), written.drive));
+      axes.push_back(read_axis_to_search("parameters", path.get<std::string>(), written.drive));
     }
     if (!axes.empty()) {
-      return margins_json(text, written, std::nullopt,
-                          hunting_margin(written.drive, axes, progress));
+      return margins_json(text, written, hunting_margin(written.drive, axes, progress));
     }
-    std::optional<ChangeableDrive> changeable;
-    if (closed_form_drive(written.drive)) changeable = ChangeableDrive(written.drive);
-    return margins_json(text, written, changeable, hunting_margin(written.drive, progress));
+    return margins_json(text, written, hunting_margin(written.drive, progress));
   }
 
   Json thesis_figure(int number, Progress& progress) {

@@ -1,5 +1,7 @@
 #include "analysis/design/drawn_cycles.hpp"
 
+#include <cmath>
+
 #include "gearlash/parameter.hpp"
 
 namespace gearlash::detail {
@@ -18,6 +20,20 @@ double highest_restitution(const TolerancedDrive& drive) {
 }
 
 }  // namespace
+
+void DrawnCycle::fill(Answer& answer) const {
+  answer.verdict = verdict;
+  answer.growth_at_rest = known(growth_at_rest);
+  answer.cycles.clear();
+  answer.irregular.clear();
+  const double amplitude = amplitude_per_backlash * backlash;
+  if (!std::isfinite(amplitude) || verdict == Verdict::cannot_hunt) return;
+  if (std::isnan(frequency)) {
+    answer.irregular.push_back({.amplitude = amplitude});
+  } else {
+    answer.cycles.push_back({.amplitude = amplitude, .period = 1.0 / frequency});
+  }
+}
 
 std::vector<DrawnCycle> solve(const TolerancedDrive& drive, std::size_t rows,
                               std::span<const double> values, VectorUnit unit) {

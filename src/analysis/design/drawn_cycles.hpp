@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "analysis/design/target.hpp"
 #include "analysis/design/toleranced_drive.hpp"
 #include "base/special_numbers.hpp"
 #include "closed_form/lanes/cycle_batch.hpp"
+#include "gearlash/answer.hpp"
 
 namespace gearlash::detail {
 
@@ -22,13 +22,8 @@ struct DrawnCycle {
   double frequency = not_a_number;       ///< Hz; NaN where there is no cycle
   bool refused = false;                  ///< no valid drive
 
-  Performance performance() const {
-    const bool is_quiet = verdict == Verdict::cannot_hunt;
-    return {.verdict = verdict,
-            .growth_at_rest = growth_at_rest,
-            .amplitude = is_quiet ? 0.0 : amplitude_per_backlash * backlash,
-            .frequency = frequency};
-  }
+  /// As an answer that is_of_boxes() targets can be judged by. `answer`: one that is reused.
+  void fill(Answer& answer) const;
 };
 
 /// Solves `rows` drives. `values` holds the values of the varied parameters, drive by drive.

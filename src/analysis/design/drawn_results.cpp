@@ -23,8 +23,7 @@ DrawnAnswers::DrawnAnswers(const TolerancedDrive& drive, const Target& target, Q
       target_(target),
       amplitude_(amplitude),
       unit_(unit),
-      one_by_one_(is_searched(drive) || !is_of_performance(target) ||
-                  amplitude != Quantity::amplitude) {}
+      one_by_one_(is_searched(drive) || !is_of_boxes(target) || amplitude != Quantity::amplitude) {}
 
 std::size_t DrawnAnswers::at_a_time() const { return one_by_one_ ? 1 : drives_at_a_time(drive_); }
 
@@ -41,25 +40,31 @@ DrawnResults DrawnAnswers::of(std::size_t rows, std::span<const double> values,
 
 DrawnResults DrawnAnswers::in_closed_form(std::size_t rows, std::span<const double> values) const {
   DrawnResults results;
+  Answer answer;
   for (const DrawnCycle& cycle : solve(drive_, rows, values, unit_)) {
-    const Performance performance = cycle.performance();
-    results.emplace_back(performance, is_met(target_, performance), cycle.refused);
+    cycle.fill(answer);
+    const bool is_quiet = cycle.verdict == Verdict::cannot_hunt;
+    results.push_back({.growth_at_rest = cycle.growth_at_rest,
+                       .amplitude = is_quiet ? 0.0 : cycle.amplitude_per_backlash * cycle.backlash,
+                       .frequency = cycle.frequency,
+                       .verdict = cycle.verdict,
+                       .meets = is_met(target_, answer),
+                       .refused = cycle.refused});
   }
   return results;
 }
 
 DrawnResult DrawnAnswers::searched(std::span<const double> values, Progress& progress) const {
   const Drive drive = searched_drive_with(drive_, values);
-  if (!faults(drive).empty()) return {{}, false, true};
+  if (!faults(drive).empty()) return {.refused = true};
   Wanted wanted = wanted_for(target_, drive_.nominal);
   wanted.borders = true;  // of each sample the amplitude counts
   const Answer answer = analyse(drive, wanted, progress);
-  return {{.verdict = answer.verdict,
-           .growth_at_rest = answer.growth_at_rest.value_or(not_a_number),
-           .amplitude = amplitude_in(answer, amplitude_),
-           .frequency = answer.value(Quantity::frequency).value_or(not_a_number)},
-          is_met(target_, answer),
-          false};
+  return {.growth_at_rest = answer.growth_at_rest.value_or(not_a_number),
+          .amplitude = amplitude_in(answer, amplitude_),
+          .frequency = answer.value(Quantity::frequency).value_or(not_a_number),
+          .verdict = answer.verdict,
+          .meets = is_met(target_, answer)};
 }
 
 }  // namespace gearlash::detail

@@ -24,15 +24,6 @@ struct DrawnResult {
   bool meets = false;    ///< the target
   bool refused = false;  ///< no valid drive: undecided, numbers NaN
 
-  DrawnResult() = default;
-  DrawnResult(const Performance& performance, bool meets_target, bool is_refused)
-      : growth_at_rest(performance.growth_at_rest),
-        amplitude(performance.amplitude),
-        frequency(performance.frequency),
-        verdict(performance.verdict),
-        meets(meets_target),
-        refused(is_refused) {}
-
   /// Whether it can move permanently of itself, or run away.
   bool hunts() const;
 };

@@ -6,8 +6,12 @@
 
 #include "analysis/design/searched_sensitivity.hpp"
 #include "analysis/final_servo.hpp"
+#include "analysis/grid/axis.hpp"
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
+#include "gearlash/design.hpp"
+#include "gearlash/parameter.hpp"
+#include "model/parameter_values.hpp"
 
 namespace gearlash {
 namespace {
@@ -127,24 +131,41 @@ std::string reason(SensitivityOutcome outcome) {
   return "";
 }
 
+/// By the number as it is named, which may be a reciprocal.
+std::optional<DrivetrainSlopes> slopes_by(const Drive& drive, const std::string& name) {
+  std::optional<DrivetrainSlopes> slopes = drivetrain_slopes(drive, name);
+  const Parameter* parameter = find_parameter(name);
+  const OtherForm* form = slopes ? form_named(*parameter, name) : nullptr;
+  if (form == nullptr || form->dimension == nullptr) return slopes;
+  const double value = get(drive, name);
+  return scaled(-form->inverse / (value * value), *slopes);
+}
+
 /// The Jacobian with respect to numbers of the drive, by the chain rule.
-Jacobian jacobian_of(const DrivetrainSensitivity& found, std::span<const Quantity> quantities,
-                     const ChangeableDrive& drive, const std::vector<std::string>& names) {
+Jacobian jacobian_of(const Drive& drive, std::span<const Quantity> quantities,
+                     const std::vector<std::string>& names) {
+  const Drive closed = *closed_form_drive(drive);
+  const DrivetrainSensitivity found = drivetrain_sensitivity(referred_drivetrain(closed));
   Jacobian jacobian{.reason = reason(found.outcome)};
   jacobian.quantities.assign(quantities.begin(), quantities.end());
   std::vector<DrivetrainSlopes> by_name;
+  RangeCheck check;
   for (const std::string& name : names) {
-    const ChangeableNumber& number = drive.number(name);
-    jacobian.paths.push_back(number.name);
-    jacobian.present.push_back(number.present);
-    by_name.push_back(drive.slopes(number.name));
+    const std::string path = path_named(name, closed);
+    if (const std::optional<DrivetrainSlopes> slopes = slopes_by(closed, path)) {
+      jacobian.paths.push_back(path);
+      jacobian.present.push_back(get(closed, path));
+      by_name.push_back(*slopes);
+    } else {
+      check.refuse("paths", name, "must be a number of this drive that enters its closed form");
+    }
   }
+  require_none(check.faults());
   for (const Quantity quantity : quantities) {
     const QuantitySlopes* of = found.find(quantity);
     jacobian.values.push_back(of == nullptr ? std::nullopt : std::optional(of->value));
     for (const DrivetrainSlopes& by : by_name) {
-      const double slope = of == nullptr ? not_a_number : chained(by, of->slopes);
-      jacobian.slopes.push_back(std::isnan(slope) ? std::nullopt : std::optional(slope));
+      jacobian.slopes.push_back(known(of == nullptr ? not_a_number : chained(by, of->slopes)));
     }
   }
   return jacobian;
@@ -152,16 +173,17 @@ Jacobian jacobian_of(const DrivetrainSensitivity& found, std::span<const Quantit
 
 }  // namespace
 
-Jacobian drive_sensitivity(const ChangeableDrive& drive, const std::vector<std::string>& names) {
-  return jacobian_of(drivetrain_sensitivity(drive.drivetrain()), differentiable, drive, names);
+Jacobian drive_sensitivity(const Drive& drive, const std::vector<std::string>& names) {
+  return jacobian_of(drive, differentiable, names);
 }
 
-Jacobian drive_sensitivity(const ChangeableDrive& drive) {
-  if (drive.drive().servo) return drive_sensitivity(drive, drive.usual_names());
+Jacobian drive_sensitivity(const Drive& drive) {
+  if (drive.servo) return drive_sensitivity(drive, usual_parameters(drive));
+  const Drive closed = *closed_form_drive(drive);
   std::vector<std::string> names;
   for (const Parameter& parameter : all_parameters_of_drives()) {
-    const ChangeableNumber* number = drive.find(parameter.path);
-    if (number != nullptr && number->parameter == &parameter) names.push_back(number->name);
+    const bool is_its_own = find_parameter(parameter.path, closed) == &parameter;
+    if (is_its_own && drivetrain_slopes(closed, parameter.path)) names.emplace_back(parameter.path);
   }
   return drive_sensitivity(drive, names);
 }
@@ -193,10 +215,9 @@ Jacobian derivatives(const Drive& drive, std::span<const Quantity> quantities,
   }
   require_none(check.faults());
   const std::vector<std::string> names(paths.begin(), paths.end());
+  require_none(faults(drive));
   if (!closed_form_drive(drive)) return searched_derivatives(drive, quantities, names, progress);
-  const ChangeableDrive changeable(drive);
-  return jacobian_of(drivetrain_sensitivity(changeable.drivetrain()), quantities, changeable,
-                     names);
+  return jacobian_of(drive, quantities, names);
 }
 
 Jacobian derivatives(const Drive& drive, std::initializer_list<Quantity> quantities,

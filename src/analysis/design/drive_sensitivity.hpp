@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "analysis/design/changeable_drive.hpp"
 #include "closed_form/cycle_sensitivity.hpp"
 #include "gearlash/sensitivity.hpp"
+#include "model/drivetrain.hpp"
+#include "model/drivetrain_slopes.hpp"
 
 namespace gearlash {
 
@@ -41,12 +42,12 @@ DrivetrainSensitivity drivetrain_sensitivity(const Drivetrain& drive);
 /// Growth at rest alone, with its derivatives: growth_sensitivity(). Throws InvalidInput.
 QuantitySlopes drivetrain_growth(const Drivetrain& drive);
 
-/// Derivatives of all quantities with respect to the named numbers. Throws InvalidInput for an
-/// unknown name.
-Jacobian drive_sensitivity(const ChangeableDrive& drive, const std::vector<std::string>& names);
+/// Derivatives of all quantities with respect to the named numbers. Precondition: a closed form.
+/// Throws InvalidInput for a number that does not enter it.
+Jacobian drive_sensitivity(const Drive& drive, const std::vector<std::string>& names);
 
 /// Derivatives with respect to every parameter that enters the closed form; for a normal form, with
-/// respect to those that a designer considers first.
-Jacobian drive_sensitivity(const ChangeableDrive& drive);
+/// respect to usual_parameters(). Precondition: a closed form.
+Jacobian drive_sensitivity(const Drive& drive);
 
 }  // namespace gearlash

@@ -1,12 +1,15 @@
 #include "analysis/design/drive_with_value.hpp"
 
 #include "analysis/analyse.hpp"
+#include "analysis/design/target.hpp"
 #include "analysis/grid/axis.hpp"
 
 namespace gearlash {
 
-DriveWithValue with_value(const Drive& base, const Axis* axis, double value, Progress& progress) {
-  Wanted wanted{.proofs = false};
+DriveWithValue with_value(const Drive& base, const Axis* axis, double value, const Target& target,
+                          Progress& progress) {
+  Wanted wanted = wanted_for(target, base);
+  wanted.borders = true;
   for (const Quantity cost : {Quantity::bandwidth, Quantity::overshoot}) {
     ask_for(cost, base, wanted);
   }

@@ -3,16 +3,25 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
 
-#include "analysis/design/target.hpp"
+#include "analysis/analyse.hpp"
+#include "analysis/design/closed_form_line.hpp"
+#include "analysis/design/proved_values.hpp"
+#include "analysis/design/searched_values.hpp"
 #include "analysis/design/value_scan.hpp"
-#include "analysis/final_servo.hpp"
 #include "analysis/grid/axis.hpp"
 #include "base/on_threads.hpp"
+#include "base/progress_part.hpp"
 #include "base/range_check.hpp"
 #include "base/shared_progress.hpp"
+#include "base/special_numbers.hpp"
+#include "closed_form/closed_answer.hpp"
 #include "closed_form/growth_at_rest.hpp"
+#include "gearlash/parameter.hpp"
+#include "model/parameter_values.hpp"
 
 namespace gearlash {
 namespace {
@@ -34,25 +43,18 @@ std::vector<double> spread_over(const Bounds& range, std::size_t count, bool eve
   return values;
 }
 
-bool has_two_masses(const ChangeableDrive& drive) {
-  return drive.drivetrain().motor_inertia > 0.0 && drive.drivetrain().load_inertia > 0.0;
-}
-
-bool has_bounces(const ChangeableDrive& drive, const ChangeableNumber& number) {
-  return has_two_masses(drive) && (number.is_restitution() || drive.drivetrain().restitution > 0.0);
-}
-
-class Search {
+/// The search along a line in closed form.
+class ClosedFormSearch {
  public:
-  Search(const ChangeableDrive& drive, const ChangeableNumber& number, const Target& target,
-         Progress& progress)
-      : drive_(drive), number_(number), target_(target), shared_(progress, usual_evaluations) {
-    if (number.is_backlash() && has_bounces(drive, number)) {
-      at_present_ = performance_of(drive.drivetrain());
+  ClosedFormSearch(const ClosedFormLine& line, const Target& target, Progress& progress)
+      : line_(line), target_(target), shared_(progress, usual_evaluations) {
+    if (line.is_backlash() && line.has_bounces() && line.present() > 0.0) {
+      at_present_ = line.answer_at(line.present());
     }
-    for (const Quantity quantity : {Quantity::amplitude, Quantity::frequency}) {
-      of_motion_.require(quantity, target.permitted(quantity));
-    }
+    of_motion_.limits = target.limits;
+    std::erase_if(of_motion_.limits, [](const QuantityLimit& limit) {
+      return info_of(limit.quantity).scope != QuantityScope::motion;
+    });
   }
 
   std::size_t evaluations() const { return evaluations_; }
@@ -94,7 +96,7 @@ class Search {
   LastMet last_met_between(double met, double unmet) {
     const auto judge = [this](double value) { return judged(value); };
     constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
-    if (!has_bounces(drive_, number_)) return last_met(judge, met, unmet, {rounding, rounding});
+    if (!line_.has_bounces()) return last_met(judge, met, unmet, {rounding, rounding});
     // Growth at rest is cheap, and what it does not rule out usually meets the target.
     const double allowed = last_allowed_by_growth(met, unmet);
     if (allowed == met || is_met_at(allowed)) return {allowed, unmet};
@@ -105,21 +107,15 @@ class Search {
   /// The tried value that comes closest to the target.
   double closest(const Bounds& range) {
     std::vector<JudgedValue> all = tried(range);
-    all.push_back(judged(number_.present));
+    if (!std::isnan(line_.present())) all.push_back(judged(line_.present()));
     return closest_of(all);
   }
 
  private:
   /// Undecided where there is no valid drive: next to a shaft without friction, a small friction on
   /// the other shaft is less than a servo may have.
-  Performance performance_at(double value) const {
-    if (at_present_) {
-      Performance scaled = *at_present_;
-      scaled.amplitude *= value / drive_.drivetrain().backlash;
-      return scaled;
-    }
-    const Drivetrain drive = drive_.with(number_.name, value);
-    return validate(drive).empty() ? performance_for(target_, drive) : Performance{};
+  Answer answer_at(double value) const {
+    return at_present_ ? with_backlash(*at_present_, value) : line_.answer_at(value, target_);
   }
 
   /// From several threads at a time.
@@ -128,13 +124,13 @@ class Search {
       return {.value = value, .is_known = false, .beyond = Target::infinity};
     }
     ++evaluations_;
-    const Performance performance = performance_at(value);
+    const Answer answer = answer_at(value);
     return {.value = value,
-            .is_met = is_met(target_, performance),
-            .is_known = !has_bounces(drive_, number_) || is_known(target_, performance),
-            .moves = performance.verdict != Verdict::cannot_hunt,
-            .beyond = excess(target_, performance),
-            .moves_beyond = excess(of_motion_, performance)};
+            .is_met = is_met(target_, answer),
+            .is_known = !line_.has_bounces() || is_known(target_, answer),
+            .moves = answer.verdict != Verdict::cannot_hunt,
+            .beyond = excess(target_, answer),
+            .moves_beyond = excess(of_motion_, answer)};
   }
 
   /// Values over the whole range, in order, denser near a limit.
@@ -147,15 +143,15 @@ class Search {
   }
 
   std::vector<double> first_values(const Bounds& range) {
-    const bool bounces = has_bounces(drive_, number_);
-    const bool evenly = number_.is_restitution();
+    const bool bounces = line_.has_bounces();
+    const bool evenly = line_.is_share();
     std::vector<double> values = spread_over(range, bounces ? coarse : fine, evenly);
     if (!bounces) return values;
     // Growth at rest is cheap; between these values it passes 1 or a limit.
     const std::vector<double> looked_at = spread_over(range, fine, evenly);
     std::vector<double> growths(looked_at.size());
     on_threads(0, looked_at.size(), [&](std::size_t i) {
-      if (shared_.go_on(0.0)) growths[i] = growth_at(looked_at[i]);
+      if (shared_.go_on(0.0)) growths[i] = line_.growth_at(looked_at[i]);
     });
     const auto differ = [&](double a, double b) {
       return (a > 1.0) != (b > 1.0) || is_ruled_out(target_, a) != is_ruled_out(target_, b);
@@ -170,13 +166,6 @@ class Search {
     return values;
   }
 
-  /// NaN where there is no valid drive.
-  double growth_at(double value) const {
-    const Drivetrain drive = drive_.with(number_.name, value);
-    if (!validate(drive).empty()) return std::numeric_limits<double>::quiet_NaN();
-    return growth_at_rest(servo_dynamics(normalize(drive)));
-  }
-
   /// The last value, starting from one that meets the target, that growth at rest does not rule
   /// out. Growth very close to 1 is excluded too, because the search for cycles cannot distinguish
   /// rest from hunting there.
@@ -184,7 +173,7 @@ class Search {
     constexpr double told_apart = 1e-6;
     const bool asks_for_rest = target_.no_hunting || target_.no_hunting_if_disturbed;
     const auto is_allowed = [&](double value) {
-      const double growth = growth_at(value);
+      const double growth = line_.growth_at(value);
       return !is_ruled_out(target_, growth) && !(asks_for_rest && growth > 1.0 - told_apart);
     };
     if (is_allowed(unmet)) return unmet;
@@ -197,13 +186,13 @@ class Search {
 
   Judgement judge_part(const Bounds& values) {
     ++evaluations_;
-    return judge(target_, drive_.box(number_.name, values), guessed_flight_time(values));
+    return judge(target_, bounds_of(line_.box(values), guessed_flight_time(values)));
   }
 
   /// The flight time at the middle, else at an end.
   double guessed_flight_time(const Bounds& values) {
     for (const double value : {middle_value(values.low, values.high), values.low, values.high}) {
-      const double time = performance_at(value).flight_time;
+      const double time = flight_time_of(answer_at(value));
       if (!std::isnan(time)) return time;
     }
     return std::numeric_limits<double>::quiet_NaN();
@@ -218,10 +207,9 @@ class Search {
   static constexpr std::size_t fine = 1024;
   static constexpr std::size_t usual_evaluations = 500;  ///< for the progress alone
 
-  const ChangeableDrive& drive_;
-  const ChangeableNumber& number_;
+  const ClosedFormLine& line_;
   const Target& target_;
-  std::optional<Performance> at_present_;  ///< for backlash: amplitudes are proportional to it
+  std::optional<Answer> at_present_;  ///< for backlash: amplitudes are proportional to it
   Target of_motion_;
   std::vector<JudgedValue> tried_;
   std::atomic<std::size_t> evaluations_ = 0;
@@ -239,6 +227,261 @@ std::vector<Part> joined(const std::vector<Part>& parts) {
     }
   }
   return all;
+}
+
+/// What the closed form answers of the target, over a range.
+FeasibleValues closed_form_values(const ClosedFormLine& line, const Bounds& range,
+                                  const Target& target, Progress& progress) {
+  FeasibleValues found{.searched = range};
+  const bool is_certified = !line.has_bounces();
+  found.kind = is_certified ? SearchKind::certified : SearchKind::scanned;
+  ClosedFormSearch search(line, target, progress);
+  put_together(
+      is_certified ? joined(search.certified(range)) : search.scanned(range),
+      [&](double value) { return search.is_met_at(value); },
+      [&](double met, double unmet) { return search.last_met_between(met, unmet); }, found);
+  if (found.intervals.empty()) found.closest = search.closest(range);
+  found.evaluations = search.evaluations();
+  found.stopped = search.is_stopped();
+  return found;
+}
+
+// ---- what is searched within the intervals
+// -------------------------------------------------------
+
+/// Judges the drives along an axis by conditions for which no motion is searched.
+class FigureSearch {
+ public:
+  /// `line`: where the conditions are also on motions in closed form.
+  FigureSearch(const Drive& drive, const Axis& axis, const ClosedFormLine* line,
+               const Target& target, Progress& progress)
+      : drive_(drive),
+        axis_(axis),
+        line_(line),
+        target_(target),
+        wanted_(wanted_for(target, drive)),
+        shared_(progress, usual_evaluations) {}
+
+  JudgedValue judged(double value) {
+    if (!shared_.finish(evaluations_ < usual_evaluations ? 1 : 0)) {
+      return {.value = value, .is_known = false, .beyond = Target::infinity};
+    }
+    ++evaluations_;
+    Drive drive = drive_;
+    set_on(axis_, drive, value);
+    if (!faults(drive).empty()) {
+      return {.value = value, .beyond = Target::infinity, .moves_beyond = Target::infinity};
+    }
+    Answer answer = line_ == nullptr ? Answer{} : line_->answer_at(value);
+    add_figures(drive, wanted_, answer, shared_);
+    const double beyond = excess(target_, answer);
+    return {.value = value,
+            .is_met = is_met(target_, answer),
+            .is_known = is_known(target_, answer),
+            .moves = true,
+            .beyond = beyond,
+            .moves_beyond = beyond};
+  }
+
+  std::size_t evaluations() const { return evaluations_; }
+  bool is_stopped() const { return shared_.is_stopped(); }
+
+ private:
+  static constexpr std::size_t usual_evaluations = 200;  ///< for the progress alone
+
+  const Drive& drive_;
+  const Axis& axis_;
+  const ClosedFormLine* line_;
+  const Target& target_;
+  Wanted wanted_;
+  std::atomic<std::size_t> evaluations_ = 0;
+  SharedProgress shared_;
+};
+
+/// The values within an interval, with its ends, rising.
+std::vector<double> values_within(const Bounds& interval, const std::vector<double>& values) {
+  std::vector<double> within = {interval.low};
+  for (const double value : values) {
+    if (value > interval.low && value < interval.high) within.push_back(value);
+  }
+  if (interval.high > interval.low) within.push_back(interval.high);
+  return within;
+}
+
+/// The borders of the intervals that are left. `before`: the intervals that were narrowed.
+void name_ends(const std::vector<Bounds>& before, FeasibleValues& found) {
+  const auto has_end = [](const std::vector<Bounds>& intervals, double end) {
+    return std::any_of(intervals.begin(), intervals.end(), [&](const Bounds& interval) {
+      return interval.low == end || interval.high == end;
+    });
+  };
+  std::erase_if(found.borders,
+                [&](const Border& border) { return !has_end(found.intervals, border.end); });
+  for (const Bounds& interval : found.intervals) {
+    for (const double end : {interval.low, interval.high}) {
+      if (has_end(before, end)) continue;
+      found.borders.push_back({.end = end, .kind = BorderKind::limit, .at = end});
+    }
+  }
+}
+
+/// Keeps of the intervals what meets the other conditions too. An interval all of whose values meet
+/// them stays as it is.
+void narrow(const Drive& drive, const Axis& axis, const ClosedFormLine* line, const Target& others,
+            const std::vector<double>& values, FeasibleValues& found, Progress& progress) {
+  FigureSearch search(drive, axis, line, others, progress);
+  const auto judge = [&](double value) { return search.judged(value); };
+  constexpr Resolution resolution{.smooth = 1e-12, .at_jump = 1e-9};
+  const std::vector<Bounds> intervals = std::exchange(found.intervals, {});
+  std::vector<JudgedValue> all;
+  for (const Bounds& interval : intervals) {
+    const std::vector<JudgedValue> tried =
+        tried_values(judge, {.first = values_within(interval, values)});
+    all.insert(all.end(), tried.begin(), tried.end());
+    if (tried.size() == 1 && tried[0].is_met) found.intervals.push_back(interval);
+    FeasibleValues within;
+    put_together(
+        parts_between(tried), [&](double value) { return judge(value).is_met; },
+        [&](double met, double unmet) { return last_met(judge, met, unmet, resolution); }, within);
+    for (const Bounds& part : within.intervals) found.intervals.push_back(part);
+    for (const Bounds& part : within.undecided) found.undecided.push_back(part);
+  }
+  if (found.kind == SearchKind::searched) name_ends(intervals, found);
+  if (found.intervals.empty() && !all.empty()) found.closest = closest_of(all);
+  found.searched_within = others;
+  found.evaluations += search.evaluations();
+  found.stopped = found.stopped || search.is_stopped();
+}
+
+/// The last value towards an unsound one of which the drive is sound: `sound` itself towards 0.
+template <class IsSound>
+double last_sound(double sound, double unsound, IsSound&& is_sound) {
+  constexpr int bisections = 40;
+  for (int i = 0; i < bisections && unsound != 0.0; ++i) {
+    const double middle = 0.5 * (sound + unsound);
+    (is_sound(middle) ? sound : unsound) = middle;
+  }
+  return sound;
+}
+
+/// Cuts a rising grid to where the drive is sound, unless it is so nowhere.
+void cut_to_sound_drives(const Axis& axis, const Drive& drive, FeasibleValues& found) {
+  const auto is_sound = [&](double value) {
+    Drive changed = drive;
+    set_on(axis, changed, value);
+    return faults(changed).empty();
+  };
+  std::vector<double>& grid = found.grid;
+  const auto first = std::find_if(grid.begin(), grid.end(), is_sound);
+  const auto last = std::find_if(grid.rbegin(), grid.rend(), is_sound);
+  if (first == grid.end()) return;
+  std::vector<double> sound(first, last.base());
+  if (first != grid.begin()) {
+    const double end = last_sound(*first, *(first - 1), is_sound);
+    if (end < sound.front()) sound.insert(sound.begin(), end);
+  }
+  if (last != grid.rbegin()) {
+    const double end = last_sound(*last, *(last - 1), is_sound);
+    if (end > sound.back()) sound.push_back(end);
+  }
+  grid = std::move(sound);
+  found.searched = {grid.front(), grid.back()};
+}
+
+/// What a target says of ceilings is proved over each interval, as far as bounds go.
+void prove_ceilings(const Drive& drive, const Axis& axis, const Target& target,
+                    FeasibleValues& found, Progress& progress) {
+  Target ceilings;
+  for (const QuantityLimit& limit : target.limits) {
+    if (is_provable(limit)) ceilings.limits.push_back(limit);
+  }
+  if (is_empty(ceilings)) return;
+  constexpr std::size_t most_boxes = 8000;
+  for (const Bounds& interval : found.intervals) {
+    found.proofs.push_back(
+        prove_target(drive, axis.path, interval, ceilings, most_boxes, progress));
+  }
+}
+
+/// Whether a word asks for numbers that the drive does not have, as a cascade's gains.
+bool asks_for_more(const Axis& axis, double word, const Drive& drive) {
+  Drive changed = drive;
+  set_on(axis, changed, word);
+  const std::vector<Parameter>& all = all_parameters_of_drives();
+  return std::any_of(all.begin(), all.end(), [&](const Parameter& parameter) {
+    return parameter.is_required && exists(parameter, changed) && !exists(parameter, drive);
+  });
+}
+
+/// In place of a value that differs from it by rounding.
+void add_present(double present, std::vector<double>& grid) {
+  constexpr double rounding = 1e-12;
+  const auto above = std::lower_bound(grid.begin(), grid.end(), present);
+  for (const auto near : {above, above == grid.begin() ? above : std::prev(above)}) {
+    if (near == grid.end() || std::abs(*near - present) > rounding * std::abs(present)) continue;
+    *near = present;
+    return;
+  }
+  grid.insert(above, present);
+}
+
+/// Whether the path means the parameter itself, not its reciprocal.
+bool is_alias(const Parameter& parameter, std::string_view path) {
+  const OtherForm* form = form_named(parameter, path);
+  return form != nullptr && form->dimension == nullptr;
+}
+
+/// What a designer considers first, if it enters the closed form.
+std::vector<std::string> usual_in_closed_form(const Drive& drive) {
+  constexpr std::string_view first[] = {"servo.backlash",      "gearbox.backlash",
+                                        "gearbox.ratio",       "controller.proportional",
+                                        "controller.position", "controller.speed",
+                                        "controller.gain",     "load.friction",
+                                        "motor.friction",      "controller.motor_speed_feedback",
+                                        "load.inertia",        "motor.inertia",
+                                        "contact.restitution"};
+  std::vector<std::string> usual;
+  for (const std::string_view path : first) {
+    const bool is_said_before = drive.servo && path == "gearbox.backlash";
+    const std::string name(path);
+    if (!is_said_before && ClosedFormLine::along(drive, name)) usual.push_back(name);
+  }
+  return usual;
+}
+
+/// The values of a number that meet the target. `found` has its grid.
+FeasibleValues values_of_number(const Drive& drive, const Axis& axis, const Target& target,
+                                FeasibleValues found, Progress& progress) {
+  const std::optional<ClosedFormLine> line = ClosedFormLine::along(drive, axis.path);
+  const bool is_bounded = line && !line->has_bounces();
+  const auto [first, others] = is_bounded
+                                   ? parts_of(target, [](Quantity one) { return is_of_boxes(one); })
+                                   : parts_of(target, [](Quantity one) { return !is_figure(one); });
+  const double share = is_empty(others) ? 1.0 : 0.8;
+  ProgressPart searching(progress, 0.0, share);
+  ProgressPart narrowing(progress, share, 1.0);
+  if (is_empty(first)) {
+    found.kind = SearchKind::scanned;
+    found.intervals = {found.searched};
+  } else if (line) {
+    FeasibleValues closed = closed_form_values(*line, found.searched, first, searching);
+    closed.parameter = found.parameter;
+    closed.present = found.present;
+    found = std::move(closed);
+  } else {
+    search_numbers(drive, axis, first, found, searching);
+  }
+  if (!is_empty(others)) {
+    const bool of_motion =
+        line && std::any_of(others.limits.begin(), others.limits.end(),
+                            [](const QuantityLimit& limit) { return !is_figure(limit.quantity); });
+    constexpr std::size_t count = 64;
+    const std::vector<double> values =
+        line ? spread_over(found.searched, count, line->is_share()) : found.grid;
+    narrow(drive, axis, of_motion ? &*line : nullptr, others, values, found, narrowing);
+  }
+  prove_ceilings(drive, axis, target, found, progress);
+  return found;
 }
 
 }  // namespace
@@ -271,43 +514,81 @@ std::vector<double> FeasibleValues::nearest_of_each() const {
   return nearest;
 }
 
-FeasibleValues feasible_values(const ChangeableDrive& drive, std::string_view parameter,
-                               const Target& target, Progress& progress) {
-  const ChangeableNumber& number = drive.number(parameter);
-  FeasibleValues found;
-  found.parameter = number.name;
-  found.present = number.present;
-  found.searched = drive.range(parameter);
-  found.kind = has_bounces(drive, number) ? SearchKind::scanned : SearchKind::certified;
-  Search search(drive, number, target, progress);
-  const std::vector<Part> parts = found.kind == SearchKind::certified
-                                      ? joined(search.certified(found.searched))
-                                      : search.scanned(found.searched);
-  put_together(
-      parts, [&](double value) { return search.is_met_at(value); },
-      [&](double met, double unmet) { return search.last_met_between(met, unmet); }, found);
-  if (found.intervals.empty()) found.closest = search.closest(found.searched);
-  found.evaluations = search.evaluations();
-  found.stopped = search.is_stopped();
-  return found;
+Axis usual_axis(const Drive& drive, std::string_view parameter) {
+  return usual_axis("parameter", drive, parameter);
 }
 
-bool is_closed_form_task(const Drive& drive, const Target& target,
-                         const std::vector<std::string>& parameters) {
-  const std::optional<Drive> closed = closed_form_drive(drive);
-  if (!closed || !is_of_performance(target)) return false;
-  const ChangeableDrive changeable(*closed);
-  return std::none_of(parameters.begin(), parameters.end(), [&](const std::string& name) {
-    const bool has_range = name.find('=') != std::string::npos;
-    return has_range || (changeable.find(name) == nullptr &&
-                         parameter_of({.path = path_named(name, drive)}, drive) != nullptr);
-  });
+Axis axis_to_search(std::string_view field, const Drive& drive, std::string_view parameter) {
+  Axis axis{.path = path_named(parameter, drive)};
+  const std::optional<ClosedFormLine> line = ClosedFormLine::along(drive, axis.path);
+  if (!line) return usual_axis(field, drive, parameter);
+  if (const Parameter& own = *parameter_of(axis, drive); is_alias(own, axis.path)) {
+    axis.path = own.path;
+  }
+  const Bounds range = line->range();
+  axis.values = {range.low};
+  if (range.high > range.low) axis.values.push_back(range.high);
+  return axis;
 }
 
-FeasibleValues feasible_values(const Drive& drive, std::string_view parameter,
-                               const Target& target) {
-  require_none(faults_for_performance(target));
-  return feasible_values(ChangeableDrive(drive), parameter, target);
+Axis axis_to_search(const Drive& drive, std::string_view parameter) {
+  require_none(faults(drive));
+  return axis_to_search("parameter", drive, parameter);
+}
+
+std::vector<std::string> usual_parameters(const Drive& drive) {
+  if (faults(drive).empty() && closed_form_drive(drive)) return usual_in_closed_form(drive);
+  std::vector<std::string> usual;
+  for (const ParameterInfo& parameter : parameters_of(drive)) {
+    const std::string path(parameter.path);
+    const bool is_wanted =
+        path == "gearbox.backlash" || path.starts_with("controller.") || path.starts_with("servo.");
+    if (!is_wanted || parameter.kind != ParameterKind::number) continue;
+    const std::optional<double> present = present_value({.path = path}, drive);
+    if (present && *present > 0.0 && std::isfinite(*present)) usual.push_back(path);
+  }
+  return usual;
+}
+
+FeasibleValues feasible_values(const Drive& drive, const Axis& axis, const Target& target,
+                               Progress& progress) {
+  std::vector<Fault> all = faults(drive);
+  for (const std::vector<Fault>& more : {faults_of_axis(axis, drive, "axis"), faults(target)}) {
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  require_none(std::move(all));
+  const std::optional<double> present = present_value(axis, drive);
+  const auto [least, most] = std::minmax_element(axis.values.begin(), axis.values.end());
+  FeasibleValues found{.parameter = axis.path,
+                       .present = present.value_or(not_a_number),
+                       .searched = {*least, *most},
+                       .grid = axis.values};
+  std::sort(found.grid.begin(), found.grid.end());
+  if (!parameter_of(axis, drive)->choices.empty()) {
+    std::erase_if(found.grid, [&](double word) { return asks_for_more(axis, word, drive); });
+    search_words(drive, axis, target, found, progress);
+    return found;
+  }
+  cut_to_sound_drives(axis, drive, found);
+  if (present && found.searched.contains(*present)) add_present(*present, found.grid);
+  return values_of_number(drive, axis, target, std::move(found), progress);
+}
+
+FeasibleValues feasible_values(const Drive& drive, std::string_view parameter, const Target& target,
+                               Progress& progress) {
+  return feasible_values(drive, axis_to_search(drive, parameter), target, progress);
+}
+
+Judgement judge_present(const Drive& drive, const Target& target, const Answer& present) {
+  const Judgement at_point = is_met(target, present)     ? Judgement::all
+                             : is_known(target, present) ? Judgement::none
+                                                         : Judgement::some;
+  const std::optional<FinalServo> servo = final_servo(drive);
+  if (!servo || !servo_dynamics(servo->closed_form.servo).plastic_contact()) return at_point;
+  const auto [bounded, others] = parts_of(target, [](Quantity one) { return is_of_boxes(one); });
+  const Judgement proved =
+      judge(bounded, bounds_of(box_of(drive, *servo), flight_time_of(present)));
+  return is_empty(others) || proved == Judgement::none ? proved : std::min(proved, at_point);
 }
 
 }  // namespace gearlash

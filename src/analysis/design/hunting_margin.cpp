@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "analysis/design/drive_sensitivity.hpp"
-#include "analysis/design/feasible_values.hpp"
 #include "analysis/design/searched_margin.hpp"
 #include "analysis/design/target.hpp"
 #include "analysis/final_servo.hpp"
@@ -14,6 +13,7 @@
 #include "base/special_numbers.hpp"
 #include "closed_form/growth_at_rest.hpp"
 #include "gearlash/analyse.hpp"
+#include "gearlash/parameter.hpp"
 #include "numeric/linear_algebra.hpp"
 
 namespace gearlash {
@@ -296,34 +296,12 @@ ParameterMargin margin_of(const FeasibleValues& quiet) {
   return margin;
 }
 
-ParameterMargin parameter_margin(const ChangeableDrive& drive, std::string_view parameter) {
-  return margin_of(feasible_values(drive, parameter, always_at_rest()));
-}
-
-HuntingMargin hunting_margin(const ChangeableDrive& drive, Progress& progress) {
-  HuntingMargin margin;
-  margin.growth_at_rest = growth_at_rest(servo_dynamics(normalize(drive.drivetrain())));
-  std::vector<std::string> names = drive.usual_names();
-  std::erase_if(names, [&](const std::string& name) {
-    return drive.number(name).is_restitution() && drive.drivetrain().restitution == 0.0;
-  });
-  for (const std::string& name : names) {
-    margin.parameters.push_back(parameter_margin(drive, name));
-    margin.hunts = margin.hunts || margin.parameters.back().hunts;
-    margin.stopped = !progress.go_on(static_cast<double>(margin.parameters.size()) /
-                                     static_cast<double>(names.size() + 1));
-    if (margin.stopped) break;
-  }
-  margin.overall = overall_margin(drive.drivetrain());
-  return margin;
-}
-
 HuntingMargin hunting_margin(const Drive& drive, Progress& progress) {
   require_none(faults(drive));
-  if (closed_form_drive(drive)) return hunting_margin(ChangeableDrive(drive), progress);
   std::vector<Axis> axes;
   for (const std::string& parameter : usual_parameters(drive)) {
-    axes.push_back(usual_axis(drive, parameter));
+    if (parameter == "contact.restitution" && get(drive, parameter) == 0.0) continue;
+    axes.push_back(axis_to_search(drive, parameter));
   }
   return hunting_margin(drive, axes, progress);
 }
@@ -337,13 +315,18 @@ HuntingMargin hunting_margin(const Drive& drive, const std::vector<Axis>& axes,
   const Answer present = analyse(drive, wanted_for(always_at_rest(), drive), first);
   margin.hunts = !is_met(always_at_rest(), present);
   margin.is_known = is_known(always_at_rest(), present);
+  margin.growth_at_rest = present.growth_at_rest;
   margin.stopped = present.search && !present.search->is_complete;
   for (const Axis& axis : axes) {
     if (margin.stopped) break;
     ProgressPart part(progress, margin.parameters.size() + 1, parts);
     margin.parameters.push_back(
-        searched_margin(drive, axis, margin.hunts || !margin.is_known, part));
+        parameter_margin(drive, axis, margin.hunts || !margin.is_known, part));
     margin.stopped = margin.parameters.back().stopped;
+  }
+  if (const std::optional<FinalServo> servo = final_servo(drive)) {
+    margin.overall = overall_margin(servo->drivetrain);
+    return margin;
   }
   if (margin.stopped || !margin.is_known) return margin;
   ProgressPart last(progress, parts - 1, parts);

@@ -1,18 +1,13 @@
 // The distance of a drive from the boundary of hunting, by single parameters and by all together.
 #pragma once
 
-#include <string_view>
-
-#include "analysis/design/changeable_drive.hpp"
 #include "gearlash/design.hpp"
+#include "model/drivetrain.hpp"
 
 namespace gearlash {
 
 /// The nearest ends of intervals, where `quiet` are the values without hunting.
 ParameterMargin margin_of(const FeasibleValues& quiet);
-
-/// The ends of feasible_values() for a target of no hunting.
-ParameterMargin parameter_margin(const ChangeableDrive& drive, std::string_view parameter);
 
 /// Solves for the OverallMargin:
 ///   min |x|  subject to  ln μ₀(J_M e^{x₁}, J_L e^{x₂}, F_M e^{x₃}, F_L e^{x₄}, K e^{x₅}) = 0.
@@ -24,8 +19,5 @@ ParameterMargin parameter_margin(const ChangeableDrive& drive, std::string_view 
 /// the boundary along 128 directions spread over that space and 10 along the axes. Throws
 /// InvalidInput.
 OverallMargin overall_margin(const Drivetrain& drive);
-
-/// The margins of ChangeableDrive::usual_names(), in their order, and of a restitution above 0.
-HuntingMargin hunting_margin(const ChangeableDrive& drive, Progress& progress = no_progress());
 
 }  // namespace gearlash

@@ -57,16 +57,11 @@ void join(std::vector<Bounds>& parts) {
 
 }  // namespace
 
-bool is_of_ceilings(const Target& target) {
-  Target of_limits;
-  of_limits.limits = target.limits;
-  return target == of_limits && !target.limits.empty() &&
-         std::all_of(target.limits.begin(), target.limits.end(), [](const QuantityLimit& limit) {
-           const bool is_ceiling = limit.quantity == Quantity::ceiling ||
-                                   limit.quantity == Quantity::motor_ceiling ||
-                                   limit.quantity == Quantity::effort_ceiling;
-           return is_ceiling && !(limit.permitted.low > 0.0);
-         });
+bool is_provable(const QuantityLimit& limit) {
+  const bool is_ceiling = limit.quantity == Quantity::ceiling ||
+                          limit.quantity == Quantity::motor_ceiling ||
+                          limit.quantity == Quantity::effort_ceiling;
+  return is_ceiling && !(limit.permitted.low > 0.0);
 }
 
 IntervalProof prove_target(const Drive& drive, std::string_view path, const Bounds& interval,

@@ -5,12 +5,13 @@
 
 namespace gearlash {
 
-/// Whether all that a target asks is that ceilings stay at or below limits.
-bool is_of_ceilings(const Target& target);
+/// Whether the limit is that a ceiling stays at or below a value.
+bool is_provable(const QuantityLimit& limit);
 
 /// Halves the interval until the ceilings of all drives of a part are proved to keep the limits,
 /// the part is 1e-9 of the interval wide, or `most_boxes` were bounded. Preconditions:
-/// is_of_ceilings(), a number of the drive, sound drives at both ends.
+/// a target on limits that are is_provable() alone, a number of the drive, sound drives at both
+/// ends.
 IntervalProof prove_target(const Drive& drive, std::string_view path, const Bounds& interval,
                            const Target& target, std::size_t most_boxes = 8000,
                            Progress& progress = no_progress());

@@ -85,8 +85,8 @@ std::optional<double> first_border(const FeasibleValues& quiet, bool hunts) {
 
 }  // namespace
 
-ParameterMargin searched_margin(const Drive& drive, const Axis& axis, bool hunts,
-                                Progress& progress) {
+ParameterMargin parameter_margin(const Drive& drive, const Axis& axis, bool hunts,
+                                 Progress& progress) {
   const FeasibleValues quiet = feasible_values(drive, axis, always_at_rest(), progress);
   ParameterMargin margin = margin_of(quiet);
   margin.hunts = hunts;
@@ -97,7 +97,7 @@ ParameterMargin searched_margin(const Drive& drive, const Axis& axis, bool hunts
     set_choices(quiet, values, margin);
     return margin;
   }
-  if (hunts) return margin;
+  if (hunts || quiet.kind != SearchKind::searched) return margin;
   if (!quiet.contains(quiet.present)) {  // what lies beside it is unknown
     margin.below.reset();
     margin.above.reset();

@@ -1,4 +1,4 @@
-// The distance of any drive from the border of hunting, by searches.
+// The distance of any drive from the border of hunting, by one parameter and by several.
 #pragma once
 
 #include <optional>
@@ -9,10 +9,10 @@
 namespace gearlash {
 
 /// The border of one parameter from feasible_values() for always_at_rest(). `hunts`: whether the
-/// drive is not known to rest at present. A border beyond which the drive is unsound or its motion
-/// unknown is none of hunting. Throws InvalidInput.
-ParameterMargin searched_margin(const Drive& drive, const Axis& axis, bool hunts,
-                                Progress& progress = no_progress());
+/// drive is not known to rest at present. A border that was searched, and beyond which the drive is
+/// unsound or its motion unknown, is none of hunting. Throws InvalidInput.
+ParameterMargin parameter_margin(const Drive& drive, const Axis& axis, bool hunts,
+                                 Progress& progress = no_progress());
 
 /// The combined change; the margins are those of `axes`. Empty if no parameter has a border at a
 /// finite ratio, or if the search was stopped before it had one.

@@ -12,7 +12,6 @@
 
 #include "analysis/analyse.hpp"
 #include "analysis/design/border.hpp"
-#include "analysis/design/proved_values.hpp"
 #include "analysis/design/value_scan.hpp"
 #include "analysis/grid/axis.hpp"
 #include "base/on_threads.hpp"
@@ -145,28 +144,6 @@ Resolution resolution_over(const Bounds& range) {
   return {.smooth = 1e-9, .at_jump = at_jump, .least = 1e-3 * at_jump * (range.high - range.low)};
 }
 
-/// Whether a word asks for numbers that the drive does not have, as a cascade's gains.
-bool asks_for_more(const Axis& axis, double word, const Drive& drive) {
-  Drive changed = drive;
-  set_on(axis, changed, word);
-  const std::vector<Parameter>& all = all_parameters_of_drives();
-  return std::any_of(all.begin(), all.end(), [&](const Parameter& parameter) {
-    return parameter.is_required && exists(parameter, changed) && !exists(parameter, drive);
-  });
-}
-
-/// In place of a value that differs from it by rounding.
-void add_present(double present, std::vector<double>& grid) {
-  constexpr double rounding = 1e-12;
-  const auto above = std::lower_bound(grid.begin(), grid.end(), present);
-  for (const auto near : {above, above == grid.begin() ? above : std::prev(above)}) {
-    if (near == grid.end() || std::abs(*near - present) > rounding * std::abs(present)) continue;
-    *near = present;
-    return;
-  }
-  grid.insert(above, present);
-}
-
 std::vector<JudgedValue> of_words(AnalysedDrives& analysed, FeasibleValues& found) {
   const auto afresh = [&](double value) { return analysed.afresh(value); };
   std::vector<JudgedValue> tried =
@@ -282,41 +259,6 @@ std::vector<JudgedValue> of_numbers(AnalysedDrives& analysed, FeasibleValues& fo
   return tried;
 }
 
-/// The last value towards an unsound one of which the drive is sound: `sound` itself towards 0.
-template <class IsSound>
-double last_sound(double sound, double unsound, IsSound&& is_sound) {
-  constexpr int bisections = 40;
-  for (int i = 0; i < bisections && unsound != 0.0; ++i) {
-    const double middle = 0.5 * (sound + unsound);
-    (is_sound(middle) ? sound : unsound) = middle;
-  }
-  return sound;
-}
-
-/// Cuts a rising grid to where the drive is sound, unless it is so nowhere.
-void cut_to_sound_drives(const Axis& axis, const Drive& drive, FeasibleValues& found) {
-  const auto is_sound = [&](double value) {
-    Drive changed = drive;
-    set_on(axis, changed, value);
-    return faults(changed).empty();
-  };
-  std::vector<double>& grid = found.grid;
-  const auto first = std::find_if(grid.begin(), grid.end(), is_sound);
-  const auto last = std::find_if(grid.rbegin(), grid.rend(), is_sound);
-  if (first == grid.end()) return;
-  std::vector<double> sound(first, last.base());
-  if (first != grid.begin()) {
-    const double end = last_sound(*first, *(first - 1), is_sound);
-    if (end < sound.front()) sound.insert(sound.begin(), end);
-  }
-  if (last != grid.rbegin()) {
-    const double end = last_sound(*last, *(last - 1), is_sound);
-    if (end > sound.back()) sound.push_back(end);
-  }
-  grid = std::move(sound);
-  found.searched = {grid.front(), grid.back()};
-}
-
 /// Precondition: `found` has its grid.
 template <class Search>
 void fill(FeasibleValues& found, const DriveAlong& drive, const Target& target,
@@ -331,23 +273,6 @@ void fill(FeasibleValues& found, const DriveAlong& drive, const Target& target,
 
 }  // namespace
 
-Axis usual_axis(const Drive& drive, std::string_view parameter) {
-  return usual_axis("parameter", drive, parameter);
-}
-
-std::vector<std::string> usual_parameters(const Drive& drive) {
-  std::vector<std::string> usual;
-  for (const ParameterInfo& parameter : parameters_of(drive)) {
-    const std::string path(parameter.path);
-    const bool is_wanted =
-        path == "gearbox.backlash" || path.starts_with("controller.") || path.starts_with("servo.");
-    if (!is_wanted || parameter.kind != ParameterKind::number) continue;
-    const std::optional<double> present = present_value({.path = path}, drive);
-    if (present && *present > 0.0 && std::isfinite(*present)) usual.push_back(path);
-  }
-  return usual;
-}
-
 FeasibleValues feasible_along(const DriveAlong& drive, const std::vector<double>& grid,
                               const Target& target, Progress& progress) {
   FeasibleValues found{.searched = {grid.front(), grid.back()}, .grid = grid};
@@ -355,41 +280,14 @@ FeasibleValues feasible_along(const DriveAlong& drive, const std::vector<double>
   return found;
 }
 
-/// The drive is analysed afresh at each value of the axis, at the present one, and at the ends of
-/// intervals. Between two values, of which one meets the target, analyse_near() closes in on the
-/// last one that does. If that misses the target when it is analysed afresh, the search between is
-/// repeated without following; if values just inside do, the interval ends before them. A value
-/// whose drive is unsound does not meet the target.
-FeasibleValues feasible_values(const Drive& drive, const Axis& axis, const Target& target,
-                               Progress& progress) {
-  std::vector<Fault> all = faults(drive);
-  for (const std::vector<Fault>& more : {faults_of_axis(axis, drive, "axis"), faults(target)}) {
-    all.insert(all.end(), more.begin(), more.end());
-  }
-  require_none(std::move(all));
-  const std::optional<double> present = present_value(axis, drive);
-  const auto [least, most] = std::minmax_element(axis.values.begin(), axis.values.end());
-  FeasibleValues found{.parameter = axis.path,
-                       .present = present.value_or(std::numeric_limits<double>::quiet_NaN()),
-                       .searched = {*least, *most},
-                       .grid = axis.values};
-  const bool is_word = !parameter_of(axis, drive)->choices.empty();
-  std::sort(found.grid.begin(), found.grid.end());
-  if (is_word) {
-    std::erase_if(found.grid, [&](double word) { return asks_for_more(axis, word, drive); });
-  }
-  if (!is_word) cut_to_sound_drives(axis, drive, found);
-  if (present && !is_word && found.searched.contains(*present)) add_present(*present, found.grid);
-  fill(found, drives_along(axis, drive), target, wanted_for(target, drive), progress,
-       is_word ? of_words : of_numbers);
-  if (!is_word && is_of_ceilings(target)) {
-    for (const Bounds& interval : found.intervals) {
-      constexpr std::size_t most_boxes = 8000;
-      found.proofs.push_back(
-          prove_target(drive, axis.path, interval, target, most_boxes, progress));
-    }
-  }
-  return found;
+void search_numbers(const Drive& drive, const Axis& axis, const Target& target,
+                    FeasibleValues& found, Progress& progress) {
+  fill(found, drives_along(axis, drive), target, wanted_for(target, drive), progress, of_numbers);
+}
+
+void search_words(const Drive& drive, const Axis& axis, const Target& target, FeasibleValues& found,
+                  Progress& progress) {
+  fill(found, drives_along(axis, drive), target, wanted_for(target, drive), progress, of_words);
 }
 
 }  // namespace gearlash

@@ -4,9 +4,7 @@
 #include <cmath>
 
 #include "analysis/analyse.hpp"
-#include "base/interval.hpp"
 #include "base/range_check.hpp"
-#include "closed_form/growth_at_rest.hpp"
 
 namespace gearlash {
 namespace {
@@ -43,10 +41,6 @@ bool is_unstable(Verdict verdict) {
   }
 }
 
-bool runs_away(const Performance& performance) {
-  return performance.verdict == Verdict::grows_without_bound;
-}
-
 bool runs_away(const Answer& answer) {
   switch (answer.verdict) {
     case Verdict::runs_away:
@@ -58,10 +52,6 @@ bool runs_away(const Answer& answer) {
   }
 }
 
-bool hunts_if_disturbed(const Performance& performance) {
-  return performance.verdict == Verdict::hunts_if_disturbed;
-}
-
 /// Beside running away too.
 bool hunts_if_disturbed(const Answer& answer) {
   const bool is_led_there = answer.search && answer.search->count("cycle") > 0;
@@ -69,19 +59,17 @@ bool hunts_if_disturbed(const Answer& answer) {
          (is_led_there && answer.largest_stable() != nullptr);
 }
 
-template <class Judged>
-bool permits_verdict(const Target& target, const Judged& judged) {
-  if (asks_for_rest(target) && is_unstable(judged.verdict)) return false;
-  if (target.no_hunting_if_disturbed && hunts_if_disturbed(judged)) return false;
-  return !target.no_runaway || !runs_away(judged);
+bool permits_verdict(const Target& target, const Answer& answer) {
+  if (asks_for_rest(target) && is_unstable(answer.verdict)) return false;
+  if (target.no_hunting_if_disturbed && hunts_if_disturbed(answer)) return false;
+  return !target.no_runaway || !runs_away(answer);
 }
 
 /// Whether the verdict or growth at rest alone shows that the target is missed.
-template <class Judged>
-bool is_missed(const Target& target, const Judged& judged) {
-  if (is_at_rest(judged.verdict)) return false;
-  const std::optional<double> growth = judged.value(Quantity::growth_at_rest);
-  return !permits_verdict(target, judged) || (growth && is_ruled_out(target, *growth));
+bool is_missed(const Target& target, const Answer& answer) {
+  if (is_at_rest(answer.verdict)) return false;
+  const std::optional<double> growth = answer.value(Quantity::growth_at_rest);
+  return !permits_verdict(target, answer) || (growth && is_ruled_out(target, *growth));
 }
 
 /// Whether the limit does not apply: a drive at rest has no frequency.
@@ -92,10 +80,6 @@ bool is_idle(Verdict verdict, Quantity quantity) {
 
 /// The value that an upper limit is for. Of an amplitude it is the largest of all motions that are
 /// not unstable, irregular ones beside stable cycles included.
-std::optional<double> highest_value(const Performance& performance, Quantity quantity) {
-  return performance.value(quantity);
-}
-
 std::optional<double> highest_value(const Answer& answer, Quantity quantity) {
   std::optional<double> value = answer.value(quantity);
   const bool is_of_motor = quantity == Quantity::motor_amplitude;
@@ -132,7 +116,6 @@ bool asks_for_step(const Target& target) {
 }
 
 /// Whether the response to a step is unknown, or was not followed to its end.
-bool is_cut_short(const Performance&) { return false; }
 bool is_cut_short(const Answer& answer) { return !answer.step || !answer.step->is_whole; }
 
 /// As a target is typed.
@@ -145,49 +128,38 @@ std::string written(Quantity quantity) {
 Judgement both(Judgement a, Judgement b) { return std::min(a, b); }
 Judgement either(Judgement a, Judgement b) { return a == b ? a : Judgement::some; }
 
-/// The judgement of those drives of the box that hunt.
-Judgement judge_hunting(const Target& target, const DriveBox& box, const CycleBounds& cycles) {
-  if (asks_for_rest(target)) return Judgement::none;
-  const Interval amplitude = Interval(box.backlash) * Interval(cycles.amplitude);
-  const Interval frequency = 1.0 / (Interval(cycles.period) * Interval(box.time_unit));
-  return both(judge(target.permitted(Quantity::amplitude), amplitude.bounds()),
-              judge(target.permitted(Quantity::frequency), frequency.bounds()));
+/// The judgement of one limit over all drives that it applies to.
+Judgement judge(const QuantityLimit& limit, const AnswerBounds& bounds) {
+  const std::optional<Bounds> of = bounds.of(limit.quantity);
+  return of ? judge(limit.permitted, *of) : Judgement::some;
 }
 
-Judgement judge_quiet(const Target& target) {
-  const bool may_be_quiet = target.permitted(Quantity::amplitude).contains(0.0);
-  return may_be_quiet ? Judgement::all : Judgement::none;
+/// The limits of motion, or all others.
+Judgement judge_limits(const Target& target, const AnswerBounds& bounds, bool of_motion) {
+  Judgement judgement = Judgement::all;
+  for (const QuantityLimit& limit : target.limits) {
+    if ((info_of(limit.quantity).scope == QuantityScope::motion) != of_motion) continue;
+    judgement = both(judgement, judge(limit, bounds));
+  }
+  return judgement;
+}
+
+/// The judgement of those drives of the box that hunt.
+Judgement judge_hunting(const Target& target, const AnswerBounds& bounds) {
+  if (asks_for_rest(target)) return Judgement::none;
+  const bool is_open = target.no_runaway && bounds.may_run_away;
+  return both(is_open ? Judgement::some : Judgement::all, judge_limits(target, bounds, true));
+}
+
+Judgement judge_resting(const Target& target) {
+  const auto may_be_0 = [&](Quantity amplitude) {
+    return target.permitted(amplitude).contains(0.0);
+  };
+  return may_be_0(Quantity::amplitude) && may_be_0(Quantity::motor_amplitude) ? Judgement::all
+                                                                              : Judgement::none;
 }
 
 }  // namespace
-
-Performance performance_of(const Drivetrain& drive) {
-  const LimitCycleAnalysis analysis = analyse_limit_cycles(normalize(drive));
-  Performance performance{.verdict = analysis.verdict, .growth_at_rest = analysis.growth_at_rest};
-  if (analysis.verdict == Verdict::cannot_hunt) performance.amplitude = 0.0;
-  if (const LimitCycle* cycle = largest_stable(analysis)) {
-    performance.amplitude = cycle->amplitude;
-    performance.frequency = natural_frequency(drive) / cycle->period;
-    performance.flight_time = 0.5 * cycle->separated_time;
-  }
-  return performance;
-}
-
-std::optional<double> Performance::value(Quantity quantity) const {
-  const auto known = [](double number) {
-    return std::isnan(number) ? std::nullopt : std::optional(number);
-  };
-  switch (quantity) {
-    case Quantity::growth_at_rest:
-      return known(growth_at_rest);
-    case Quantity::amplitude:
-      return known(amplitude);
-    case Quantity::frequency:
-      return known(frequency);
-    default:
-      return std::nullopt;
-  }
-}
 
 Wanted wanted_for(const Target& target, const Drive& base) {
   Wanted wanted{.proofs = false, .borders = asks_for_motion(target)};
@@ -195,20 +167,36 @@ Wanted wanted_for(const Target& target, const Drive& base) {
   return wanted;
 }
 
-bool is_of_performance(Quantity quantity) {
+bool is_empty(const Target& target) { return target == Target{}; }
+
+TargetParts parts_of(const Target& target, bool (*is_chosen)(Quantity)) {
+  TargetParts parts{.chosen = target};
+  parts.chosen.limits.clear();
+  for (const QuantityLimit& limit : target.limits) {
+    (is_chosen(limit.quantity) ? parts.chosen : parts.others).limits.push_back(limit);
+  }
+  return parts;
+}
+
+bool is_figure(Quantity quantity) {
+  const QuantityScope scope = info_of(quantity).scope;
+  return scope != QuantityScope::answer && scope != QuantityScope::motion;
+}
+
+bool is_of_boxes(Quantity quantity) {
   return quantity == Quantity::growth_at_rest || quantity == Quantity::amplitude ||
          quantity == Quantity::frequency;
 }
 
-bool is_of_performance(const Target& target) {
+bool is_of_boxes(const Target& target) {
   return std::all_of(target.limits.begin(), target.limits.end(),
-                     [](const QuantityLimit& limit) { return is_of_performance(limit.quantity); });
+                     [](const QuantityLimit& limit) { return is_of_boxes(limit.quantity); });
 }
 
-std::vector<Fault> faults_for_performance(const Target& target) {
+std::vector<Fault> faults_of_boxes(const Target& target) {
   std::vector<Fault> found = faults(target);
   for (const QuantityLimit& limit : target.limits) {
-    if (is_of_performance(limit.quantity)) continue;
+    if (is_of_boxes(limit.quantity)) continue;
     found.push_back({"target", written(limit.quantity),
                      "must be growth-at-rest, amplitude, frequency or period where the closed form "
                      "answers",
@@ -224,73 +212,53 @@ bool is_ruled_out(const Target& target, double growth_at_rest) {
          !permitted.contains(growth_at_rest);
 }
 
-Performance performance_for(const Target& target, const Drivetrain& drive) {
-  const NormalizedServo servo = normalize(drive);
-  if (servo.restitution == 0.0 || servo.backlash == 0.0) return performance_of(drive);
-  require_none(validate(servo));
-  const double growth = growth_at_rest(servo_dynamics(servo));
-  if (!is_ruled_out(target, growth)) return performance_of(drive);
-  return {.verdict = growth > 1.0 ? Verdict::hunts : Verdict::undecided, .growth_at_rest = growth};
-}
-
-template <class Judged>
-bool is_met(const Target& target, const Judged& judged) {
-  if (is_missed(target, judged) || !is_known(target, judged)) return false;
+bool is_met(const Target& target, const Answer& answer) {
+  if (is_missed(target, answer) || !is_known(target, answer)) return false;
   return std::all_of(target.limits.begin(), target.limits.end(), [&](const QuantityLimit& limit) {
-    if (is_idle(judged.verdict, limit.quantity)) return true;
-    const std::optional<double> value = judged.value(limit.quantity);
+    if (is_idle(answer.verdict, limit.quantity)) return true;
+    const std::optional<double> value = answer.value(limit.quantity);
     return value && *value >= limit.permitted.low &&
-           *highest_value(judged, limit.quantity) <= limit.permitted.high;
+           *highest_value(answer, limit.quantity) <= limit.permitted.high;
   });
 }
 
-template <class Judged>
-bool is_known(const Target& target, const Judged& judged) {
-  if (is_missed(target, judged)) return true;
-  if (asks_for_step(target) && is_cut_short(judged)) return false;
-  switch (judged.verdict) {
+bool is_known(const Target& target, const Answer& answer) {
+  if (is_missed(target, answer)) return true;
+  if (asks_for_step(target) && is_cut_short(answer)) return false;
+  switch (answer.verdict) {
     case Verdict::undecided:
       return !asks_for_rest(target) && !target.no_runaway && !asks_for_motion(target);
     case Verdict::hunts_irregularly:
-      return !asks_for_motion(target) || judged.value(Quantity::amplitude).has_value();
+      return !asks_for_motion(target) || answer.value(Quantity::amplitude).has_value();
     default:
       return true;
   }
 }
 
-template <class Judged>
-double excess(const Target& target, const Judged& judged) {
+double excess(const Target& target, const Answer& answer) {
   double worst = -infinity;
   if (asks_for_rest(target)) {
-    const double growth = std::log(judged.value(Quantity::growth_at_rest).value_or(not_a_number));
+    const double growth = std::log(answer.value(Quantity::growth_at_rest).value_or(not_a_number));
     // A cycle beside a stable rest has no known distance to the target; 1 means far.
-    worst = growth > 0.0 || permits_verdict(target, judged) ? std::fmax(growth, -infinity) : 1.0;
-  } else if (!permits_verdict(target, judged)) {
+    worst = growth > 0.0 || permits_verdict(target, answer) ? std::fmax(growth, -infinity) : 1.0;
+  } else if (!permits_verdict(target, answer)) {
     worst = 1.0;
   }
   for (const QuantityLimit& limit : target.limits) {
-    if (is_idle(judged.verdict, limit.quantity)) continue;
-    worst = std::max(worst, excess_of(limit.permitted, judged.value(limit.quantity),
-                                      highest_value(judged, limit.quantity)));
+    if (is_idle(answer.verdict, limit.quantity)) continue;
+    worst = std::max(worst, excess_of(limit.permitted, answer.value(limit.quantity),
+                                      highest_value(answer, limit.quantity)));
   }
   return worst;
 }
 
-template bool is_met(const Target&, const Performance&);
-template bool is_met(const Target&, const Answer&);
-template bool is_known(const Target&, const Performance&);
-template bool is_known(const Target&, const Answer&);
-template double excess(const Target&, const Performance&);
-template double excess(const Target&, const Answer&);
-
-Judgement judge(const Target& target, const DriveBox& box, double guessed_flight_time) {
-  const CycleBounds cycles = bound_cycles(box.servo, guessed_flight_time);
-  const Judgement growth = judge(target.permitted(Quantity::growth_at_rest), cycles.growth_at_rest);
-  if (growth == Judgement::none) return growth;
-  if (cycles.none_hunt() || box.backlash.high == 0.0) return both(growth, judge_quiet(target));
-  const Judgement hunting = judge_hunting(target, box, cycles);
-  if (cycles.all_hunt()) return both(growth, hunting);
-  return both(growth, either(hunting, judge_quiet(target)));
+Judgement judge(const Target& target, const AnswerBounds& bounds) {
+  const Judgement of_drive = judge_limits(target, bounds, false);
+  if (of_drive == Judgement::none) return of_drive;
+  if (!bounds.may_hunt) return both(of_drive, judge_resting(target));
+  const Judgement hunting = judge_hunting(target, bounds);
+  if (!bounds.may_rest) return both(of_drive, hunting);
+  return both(of_drive, either(hunting, judge_resting(target)));
 }
 
 Bounds Target::permitted(Quantity quantity) const {

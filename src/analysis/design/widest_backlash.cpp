@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "analysis/design/drawn_cycles.hpp"
 #include "analysis/design/drawn_values.hpp"
 #include "analysis/design/replicates.hpp"
 #include "analysis/design/sampling.hpp"
+#include "analysis/design/target.hpp"
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
 #include "gearlash/parameter.hpp"
@@ -36,25 +38,21 @@ TolerancedDrive with_unit_backlash(TolerancedDrive drive) {
 }
 
 /// The largest max for which a sample meets the target; `never` where it misses it even with
-/// max = min.
-double largest_max(const Target& target, const detail::DrawnCycle& cycle, double min) {
-  Performance performance = cycle.performance();
-  if (performance.verdict == Verdict::cannot_hunt) {
-    return is_met(target, performance) ? infinity : never;
-  }
+/// max = min. `answer`: one that is reused.
+double largest_max(const Target& target, detail::DrawnCycle cycle, double min, Answer& answer) {
+  const double backlash = std::exchange(cycle.backlash, min);
+  cycle.fill(answer);
+  const bool meets = is_met(target, answer);
+  if (cycle.verdict == Verdict::cannot_hunt) return meets ? infinity : never;
   const double size = cycle.amplitude_per_backlash;
-  performance.amplitude = min * size;
-  if (is_met(target, performance) && !std::isnan(performance.amplitude)) {
-    return min +
-           std::max(0.0, target.permitted(Quantity::amplitude).high / size - min) / cycle.backlash;
+  if (meets && !std::isnan(min * size)) {
+    return min + std::max(0.0, target.permitted(Quantity::amplitude).high / size - min) / backlash;
   }
-  if (min > 0.0 || performance.verdict == Verdict::undamped) return never;
+  if (min > 0.0 || cycle.verdict == Verdict::undamped) return never;
   // A sample without backlash does not hunt.
-  return is_met(target, Performance{.verdict = Verdict::cannot_hunt,
-                                    .growth_at_rest = performance.growth_at_rest,
-                                    .amplitude = 0.0})
-             ? 0.0
-             : never;
+  cycle.verdict = Verdict::cannot_hunt;
+  cycle.fill(answer);
+  return is_met(target, answer) ? 0.0 : never;
 }
 
 /// The largest max with at least this yield, by the largest max of each sample.
@@ -85,7 +83,7 @@ Estimate yield_with(const detail::SortedReplicates& maxima, double max) {
 
 std::vector<Fault> validate(const BacklashDemand& demand) {
   RangeCheck check;
-  check.include(faults_for_performance(demand.target));
+  check.include(faults_of_boxes(demand.target));
   if (const double low = demand.target.permitted(Quantity::amplitude).low; low > 0.0) {
     check.refuse("target", "amplitude >= " + exact_text(low),
                  "must have no lower limit of amplitude: more backlash would then be better");
@@ -111,8 +109,9 @@ std::optional<WidestBacklash> widest_backlash(const TolerancedDrive& drive,
   std::vector<double> column(sampling.samples());
   const auto work = [&](std::size_t first, std::size_t count, Progress&) {
     const auto cycles = detail::solve(unit_drive, count, values.of(first, count), workers.unit);
+    Answer answer;
     for (std::size_t row = 0; row < count; ++row) {
-      column[first + row] = largest_max(demand.target, cycles[row], min);
+      column[first + row] = largest_max(demand.target, cycles[row], min, answer);
     }
   };
   WidestBacklash widest;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "analysis/design/drawn_results.hpp"
 #include "analysis/design/shifted_sobol.hpp"
 #include "base/on_threads.hpp"
 #include "base/range_check.hpp"
@@ -111,12 +110,8 @@ class Climb {
 
   const std::vector<Coordinate>& coordinates() const { return coordinates_; }
   bool is_stopped() const { return shared_.is_stopped(); }
-  Performance performance(const Values& values) {
-    const detail::DrawnResult result = answers_.of(1, values, shared_).front();
-    return {.verdict = result.verdict,
-            .growth_at_rest = result.growth_at_rest,
-            .amplitude = result.amplitude,
-            .frequency = result.frequency};
+  detail::DrawnResult result(const Values& values) {
+    return answers_.of(1, values, shared_).front();
   }
 
  private:
@@ -370,7 +365,7 @@ WorstCorner worst_corner(const TolerancedDrive& drive, const WorstSearch& search
     worst.numbers.push_back(
         {drive.varied[i].path, value, place_of(value, climb.coordinates()[i].range)});
   }
-  worst.performance = climb.performance(top.values);
+  worst.result = climb.result(top.values);
   worst.stopped = climb.is_stopped();
   return worst;
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/design/target.hpp"
+#include "analysis/design/drawn_results.hpp"
 #include "analysis/design/toleranced_drive.hpp"
 #include "analysis/grid/grid_evaluation.hpp"
 
@@ -36,7 +36,7 @@ struct WorstNumber {
 
 struct WorstCorner {
   std::vector<WorstNumber> numbers;  ///< in the order of drive.varied
-  Performance performance;
+  detail::DrawnResult result;
   bool stopped = false;  ///< by Progress: then nothing holds
 };
 

@@ -140,9 +140,10 @@ const Parameter* parameter_of(const Axis& axis, const Drive& drive) {
 std::optional<double> present_value(const Axis& axis, const Drive& drive) {
   const Parameter& parameter = *parameter_of(axis, drive);
   Drive copy = drive;
+  take_form_with(copy, axis.path);
   const Slot slot = parameter.slot(copy);
   if (const auto* choice = std::get_if<Choice>(&slot)) {
-    return static_cast<double>(choice->chosen(drive));
+    return static_cast<double>(choice->chosen(copy));
   }
   try {
     return get(drive, axis.path);

@@ -7,7 +7,6 @@
 #include <mutex>
 
 #include "analysis/analyse.hpp"
-#include "analysis/design/changeable_drive.hpp"
 #include "analysis/final_servo.hpp"
 #include "analysis/grid/followed_drives.hpp"
 #include "base/on_threads.hpp"
@@ -232,8 +231,7 @@ class GridPart {
       scales_.push_back(
           {row, servo->closed_form.natural_frequency, servo->stiffness.value_or(not_a_number)});
       if (proves_ && !drive.servo) {
-        const DataError error = data_error_of(drive, servo->drivetrain);
-        boxes_.emplace(row, box_between(servo->drivetrain, servo->drivetrain, error).servo);
+        boxes_.emplace(row, box_of(drive, *servo).servo);
       }
     } else {
       searched_rows_.push_back(row);

@@ -150,7 +150,7 @@ TEST(PropertyEnclosedCeiling, ATargetIsProvedOverTheValuesItSays) {
   const double limit = *ceiling_of(reduce_settled(drive)).load;
   Target target;
   target.require(Quantity::ceiling, {0.0, limit});
-  EXPECT_TRUE(is_of_ceilings(target));
+  EXPECT_TRUE(is_provable(target.limits[0]));
   const Bounds interval{0.1, 0.6};
   const IntervalProof proof = prove_target(drive, "servo.damping", interval, target, 1500);
   ASSERT_FALSE(proof.parts.empty()) << proof.reason;
@@ -170,10 +170,8 @@ TEST(PropertyEnclosedCeiling, ATargetIsProvedOverTheValuesItSays) {
   EXPECT_GT(beyond, 5);
   EXPECT_GT(width, 0.99 * (interval.high - 0.19));
   EXPECT_GT(proof.boxes, 10U);
-  Target other = target;
-  other.no_hunting = true;
-  EXPECT_FALSE(is_of_ceilings(other));
-  EXPECT_FALSE(is_of_ceilings({}));
+  EXPECT_FALSE(is_provable({Quantity::ceiling, {limit, 2.0 * limit}}));
+  EXPECT_FALSE(is_provable({Quantity::amplitude, {0.0, limit}}));
 }
 
 }  // namespace

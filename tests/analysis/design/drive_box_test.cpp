@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/design/drive_sensitivity.hpp"
 #include "analysis/design/drives.hpp"
 #include "analysis/design/target.hpp"
 #include "base/references.hpp"
@@ -18,11 +19,12 @@
 namespace gearlash::drive_box_test {
 namespace {
 
-/// All but restitution, and the normal form's own.
+/// All but restitution.
 constexpr std::string_view parameters[] = {
-    "backlash",       "gear_ratio",           "error_gain",         "load_friction",
-    "motor_friction", "tachometer",           "load_inertia",       "motor_inertia",
-    "servo.damping",  "servo.friction_ratio", "servo.inertia_ratio"};
+    "servo.backlash",       "gearbox.ratio",      "controller.proportional",
+    "load.friction",        "motor.friction",     "controller.motor_speed_feedback",
+    "load.inertia",         "motor.inertia",      "servo.damping",
+    "servo.friction_ratio", "servo.inertia_ratio"};
 
 void expect_holds(const Bounds& bounds, Wide exact) {
   EXPECT_TRUE(bounds.low <= exact && exact <= bounds.high)
@@ -53,15 +55,17 @@ TEST(OracleDriveBox, HoldsAServoWithin) {
                                 .friction_ratio = exact.input("friction_ratio"),
                                 .backlash = draws.log_uniform(1e-4, 1.0)};
     const double frequency = draws.log_uniform(0.1, 100.0);
-    const ChangeableDrive drive = changeable(servo, frequency);
-    const double present = drive.present_value(parameter);
-    const Bounds range = drive.range(parameter);
+    const Drive drive = drive_of(servo, frequency);
+    const ClosedFormLine line = line_of(drive, parameter);
+    const double present = line.present();
+    const Bounds range = line.range();
     if (!range.contains(present)) continue;  // damping beyond ten times critical
     Bounds values = drawn_about(present, draws, i);
-    if (parameter == "tachometer") values.high = range.high * draws.log_uniform(1e-6, 0.3);
+    if (parameter == "controller.motor_speed_feedback")
+      values.high = range.high * draws.log_uniform(1e-6, 0.3);
     values = {std::max(range.low, values.low), std::min(range.high, values.high)};
-    const double guess = performance_of(drive.with(parameter, values.low)).flight_time;
-    const DriveBox box = drive.box(parameter, values);
+    const double guess = flight_time_of(line.answer_at(values.low));
+    const DriveBox box = line.box(values);
     const CycleBounds bounds = bound_cycles(box.servo, guess);
     expect_holds(bounds.growth_at_rest, exact["growth"]);
     if (i % 3 == 0 && exact["growth"] > 0 && values.low == values.high) {
@@ -141,20 +145,20 @@ TEST(PropertyDriveBox, HoldsEveryDataSheetBetweenItsEnds) {
   for (std::size_t i = 0; i < 4000 && !HasFailure(); ++i) {
     const Drive sheet = drawn_data_sheet(draws);
     if (!faults(sheet).empty() || !closed_form_servo(sheet)) continue;  // feedback beyond friction
-    const ChangeableDrive drive(sheet);
-    const ChangeableNumber& number = drive.numbers()[i % drive.numbers().size()];
-    const Bounds range = drive.range(number.name);
-    if (number.is_restitution() || !(range.high > range.low)) continue;
-    SCOPED_TRACE(testing::Message() << "case " << i << ", " << number.name);
+    const std::vector<std::string> names = drive_sensitivity(sheet).paths;
+    const std::string& name = names[i % names.size()];
+    const ClosedFormLine line = line_of(sheet, name);
+    const Bounds range = line.range();
+    if (line.is_share() || !(range.high > range.low)) continue;
+    SCOPED_TRACE(testing::Message() << "case " << i << ", " << name);
     const double low = range.low + draws.uniform(0.0, 0.5) * (range.high - range.low);
     const Bounds values{low, std::min(range.high, drawn_about(low, draws, i).high)};
-    const CycleBounds bounds = bound_cycles(drive.box(number.name, values).servo,
-                                            std::numeric_limits<double>::quiet_NaN());
+    const CycleBounds bounds =
+        bound_cycles(line.box(values).servo, std::numeric_limits<double>::quiet_NaN());
     for (int k = 0; k < 4; ++k) {
       const double value =
           std::min(values.high, values.low + draws.uniform(0.0, 1.0) * (values.high - values.low));
-      const Drivetrain drawn = drive.with(number.name, value);
-      ASSERT_TRUE(validate(drawn).empty());
+      const Drivetrain drawn = line.at(value)->drivetrain;
       expect_holds(bounds.growth_at_rest, growth_of(drawn));
       ++compared;
     }

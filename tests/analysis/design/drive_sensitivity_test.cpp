@@ -1,4 +1,4 @@
-// Derivatives of drives: against differences of performance_of(), and by identities of scale.
+// Derivatives of drives: against differences of analyse_limit_cycles(), and by identities of scale.
 #include "analysis/design/drive_sensitivity.hpp"
 
 #include <gmock/gmock.h>
@@ -92,13 +92,14 @@ double difference(const std::function<double(double)>& value_at, double present,
 }
 
 /// Every slope of one column against differences.
-void expect_slopes(const Jacobian& found, const ChangeableDrive& drive, std::size_t column,
-                   double scale, double tolerance) {
+void expect_slopes(const Jacobian& found, const Drive& drive, std::size_t column, double scale,
+                   double tolerance) {
   const std::string& name = found.paths[column];
+  const ClosedFormLine line = line_of(drive, name);
   for (std::size_t row = 0; row < found.quantities.size(); ++row) {
     const Quantity quantity = found.quantities[row];
     const double exact =
-        difference([&](double value) { return value_of(quantity, drive.with(name, value)); },
+        difference([&](double value) { return value_of(quantity, line.at(value)->drivetrain); },
                    found.present[column], scale);
     ASSERT_TRUE(found.slope(row, column) && found.values[row]) << name;
     const double slope = *found.slope(row, column);
@@ -109,35 +110,30 @@ void expect_slopes(const Jacobian& found, const ChangeableDrive& drive, std::siz
   }
 }
 
-void expect_slopes(const ChangeableDrive& drive, const std::vector<std::string>& names,
-                   double tolerance) {
+void expect_slopes(const Drive& drive, const std::vector<std::string>& names, double tolerance) {
   const Jacobian found = drive_sensitivity(drive, names);
   ASSERT_EQ(found.reason, "");
   for (std::size_t column = 0; column < names.size(); ++column) {
-    const ChangeableNumber& number = drive.number(names[column]);
-    if (number.is_restitution()) continue;
+    if (names[column] == "contact.restitution") continue;
     // Feedback that is 0 at present has the scale of one that would damp like the motor itself.
-    const double scale = number.present == 0.0 ? drive.drivetrain().motor_friction /
-                                                     drive.slopes(number.name).motor_friction
-                                               : std::abs(number.present);
+    const double present = found.present[column];
+    const double scale = present == 0.0
+                             ? drivetrain_of(drive).motor_friction /
+                                   drivetrain_slopes(drive, names[column])->motor_friction
+                             : std::abs(present);
     expect_slopes(found, drive, column, scale, tolerance);
   }
 }
 
-std::vector<std::string> all_names(const ChangeableDrive& drive) {
-  std::vector<std::string> names;
-  for (const ChangeableNumber& number : drive.numbers()) names.push_back(number.name);
-  return names;
-}
+std::vector<std::string> all_names(const Drive& drive) { return drive_sensitivity(drive).paths; }
 
 TEST(DriveSensitivity, OfEachNumberAgreesWithDifferences) {
   std::size_t numbers = 0;
   for (const Drive& drive :
        {armature_drive(), field_drive(), two_phase_drive(), fed_back(armature_drive(), 1e-3),
         fed_back(two_phase_drive(), -1e-3), cascade_drive(), lead_lag_drive()}) {
-    const ChangeableDrive changeable(drive);
-    numbers += changeable.numbers().size();
-    expect_slopes(changeable, all_names(changeable), 1e-9);
+    numbers += all_names(drive).size();
+    expect_slopes(drive, all_names(drive), 1e-9);
   }
   EXPECT_EQ(numbers, 12U + 11U + 11U + 13U + 12U + 13U + 11U);
 }
@@ -151,21 +147,19 @@ TEST(PropertyDriveSensitivity, OfRandomServosAgreesWithDifferences) {
                                 .backlash = draws.log_uniform(1e-3, 1.0)};
     if (growth_at_rest(servo_dynamics(servo)) < 1.2) continue;  // where it is steep
     ++compared;
-    const ChangeableDrive drive = changeable(servo, draws.log_uniform(1.0, 100.0));
+    const Drive drive = drive_of(servo, draws.log_uniform(1.0, 100.0));
     expect_slopes(drive, all_names(drive), 1e-8);
   }
 }
 
 TEST(DriveSensitivity, NamesTheNumbersOfADataSheetByTheirPaths) {
-  const auto paths = [](const Drive& drive) {
-    return drive_sensitivity(ChangeableDrive(drive)).paths;
-  };
-  EXPECT_THAT(paths(armature_drive()),
+  EXPECT_THAT(all_names(armature_drive()),
               testing::ElementsAre("motor.inertia", "motor.friction", "motor.torque_constant",
                                    "motor.back_emf_constant", "motor.resistance", "gearbox.ratio",
                                    "gearbox.backlash", "load.inertia", "load.friction",
-                                   "contact.restitution", "controller.proportional"));
-  EXPECT_THAT(paths(field_drive()), testing::Not(testing::Contains("motor.back_emf_constant")));
+                                   "contact.restitution", "controller.proportional",
+                                   "controller.motor_speed_feedback"));
+  EXPECT_THAT(all_names(field_drive()), testing::Not(testing::Contains("motor.back_emf_constant")));
 }
 
 // ---- identities of scale ------------------------------------------------------------------------
@@ -221,7 +215,7 @@ TEST(PropertyDriveSensitivity, KnowsTheScalesOfTorqueTimeAndAngle) {
 TEST(EdgeDriveSensitivity, WithoutACycleSaysSo) {
   const NormalizedServo servo{
       .damping = 0.9, .inertia_ratio = 2.0, .friction_ratio = 0.5, .backlash = 0.1};
-  EXPECT_THAT(drive_sensitivity(changeable(servo)).reason,
+  EXPECT_THAT(drive_sensitivity(drive_of(servo)).reason,
               testing::HasSubstr("there is no limit cycle"));
   const Jacobian found =
       derivatives(drive_of(servo), {Quantity::period, Quantity::growth_at_rest}, {"servo.damping"});
@@ -241,16 +235,18 @@ TEST(EdgeDriveSensitivity, RefusesWhatHasNoDerivatives) {
 }
 
 TEST(DriveSensitivity, WithBouncesAgreesWithDifferencesToo) {
-  const ChangeableDrive drive = changeable(NormalizedServo{.damping = 0.3,
-                                                           .inertia_ratio = 2.0,
-                                                           .friction_ratio = 0.2,
-                                                           .backlash = 0.1,
-                                                           .restitution = 0.4});
-  expect_slopes(drive, drive.usual_names(), 1e-8);
-  const Jacobian found = derivatives(drive.drive(), {Quantity::amplitude}, {"contact.restitution"});
+  const Drive drive = drive_of(NormalizedServo{.damping = 0.3,
+                                               .inertia_ratio = 2.0,
+                                               .friction_ratio = 0.2,
+                                               .backlash = 0.1,
+                                               .restitution = 0.4});
+  expect_slopes(drive, usual_parameters(drive), 1e-8);
+  const Jacobian found = derivatives(drive, {Quantity::amplitude}, {"contact.restitution"});
   const double exact = difference(
-      [&](double value) { return performance_of(drive.with("restitution", value)).amplitude; }, 0.4,
-      0.4);
+      [&](double value) {
+        return amplitude_in(line_of(drive, "contact.restitution").answer_at(value));
+      },
+      0.4, 0.4);
   EXPECT_NEAR(*found.slope(0, 0), exact, 1e-8);
   EXPECT_NE(*found.slope(0, 0), 0.0);
 }

@@ -2,17 +2,21 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
 
-#include "analysis/design/changeable_drive.hpp"
+#include "analysis/design/closed_form_line.hpp"
+#include "base/special_numbers.hpp"
+#include "closed_form/closed_answer.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash {
 
-/// What a design looks at, by the names of 0.1, which every drive understands.
+/// What a design looks at in a normal form.
 inline constexpr std::array<std::string_view, 9> all_parameters = {
-    "backlash",   "gear_ratio",   "error_gain",    "load_friction", "motor_friction",
-    "tachometer", "load_inertia", "motor_inertia", "restitution"};
+    "servo.backlash", "gearbox.ratio",  "controller.proportional",
+    "load.friction",  "motor.friction", "controller.motor_speed_feedback",
+    "load.inertia",   "motor.inertia",  "contact.restitution"};
 
 inline Drive drive_of(const NormalizedServo& servo, double natural_frequency = 1.0) {
   Drive drive = normal_form(servo.damping, servo.inertia_ratio, servo.friction_ratio,
@@ -21,8 +25,23 @@ inline Drive drive_of(const NormalizedServo& servo, double natural_frequency = 1
   return drive;
 }
 
-inline ChangeableDrive changeable(const NormalizedServo& servo, double natural_frequency = 1.0) {
-  return ChangeableDrive(drive_of(servo, natural_frequency));
+/// The drives with other values of a number, which must enter the closed form.
+inline ClosedFormLine line_of(const Drive& drive, std::string_view parameter) {
+  return *ClosedFormLine::along(drive, std::string(parameter));
+}
+
+inline Drivetrain drivetrain_of(const Drive& drive) { return final_servo(drive)->drivetrain; }
+
+/// What the closed form says.
+inline Answer closed_answer(const Drivetrain& drive) {
+  const NormalizedServo servo = normalize(drive);
+  return answer_of(analyse_limit_cycles(servo), {servo, natural_frequency(drive)}, drive.stiffness);
+}
+inline Answer closed_answer(const Drive& drive) { return closed_answer(drivetrain_of(drive)); }
+
+/// NaN where it is not known.
+inline double amplitude_in(const Answer& answer) {
+  return answer.value(Quantity::amplitude).value_or(not_a_number);
 }
 
 /// What a data sheet says besides its motor.

@@ -8,6 +8,7 @@
 
 #include "analysis/design/drives.hpp"
 #include "analysis/design/target.hpp"
+#include "analysis/grid/axis.hpp"
 #include "base/range_check.hpp"
 #include "base/traced_draws.hpp"
 
@@ -15,8 +16,8 @@ namespace gearlash::feasible_values_test {
 namespace {
 
 /// The servo of the thesis's sample problem, about.
-ChangeableDrive sample_drive() {
-  return changeable(NormalizedServo{
+Drive sample_drive() {
+  return drive_of(NormalizedServo{
       .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3});
 }
 
@@ -39,7 +40,7 @@ Target at_least_as_fast_as(double frequency) {
 TEST(FeasibleValues, OfBacklashAreInProportionToTheSize) {
   const FeasibleValues found = feasible_values(sample_drive(), "backlash", at_most(0.1));
   ASSERT_EQ(found.intervals.size(), 1U);
-  const double size = performance_of(sample_drive().drivetrain()).amplitude;
+  const double size = amplitude_in(closed_answer(sample_drive()));
   EXPECT_NEAR(found.intervals[0].high, 0.3 * 0.1 / size, 1e-15);
   EXPECT_EQ(found.nearest(), found.intervals[0].high);
   EXPECT_FALSE(found.contains(0.3));
@@ -53,29 +54,30 @@ TEST(FeasibleValues, NoBacklashEndsHunting) {
 }
 
 TEST(FeasibleValues, MayBeSeveralIntervals) {
-  const FeasibleValues ratio = feasible_values(sample_drive(), "gear_ratio", no_hunting());
+  const FeasibleValues ratio = feasible_values(sample_drive(), "gearbox.ratio", no_hunting());
   EXPECT_EQ(ratio.intervals.size(), 2U);  // a very small one, and a very large one
   const FeasibleValues inertia =
-      feasible_values(sample_drive(), "load_inertia", at_least_as_fast_as(0.16));
+      feasible_values(sample_drive(), "load.inertia", at_least_as_fast_as(0.16));
   EXPECT_EQ(inertia.intervals.size(), 2U);  // no hunting at all, and hunting fast
 }
 
 TEST(FeasibleValues, AMetTargetHasThePresentValue) {
-  const FeasibleValues found = feasible_values(sample_drive(), "error_gain", at_most(1.0));
+  const FeasibleValues found =
+      feasible_values(sample_drive(), "controller.proportional", at_most(1.0));
   EXPECT_TRUE(found.contains(1.0));
   EXPECT_EQ(found.nearest(), 1.0);
 }
 
-ChangeableDrive bouncing_drive() {
-  return changeable(NormalizedServo{.damping = 0.3,
-                                    .inertia_ratio = 2.0,
-                                    .friction_ratio = 0.3,
-                                    .backlash = 0.3,
-                                    .restitution = 0.1});
+Drive bouncing_drive() {
+  return drive_of(NormalizedServo{.damping = 0.3,
+                                  .inertia_ratio = 2.0,
+                                  .friction_ratio = 0.3,
+                                  .backlash = 0.3,
+                                  .restitution = 0.1});
 }
 
 TEST(FeasibleValues, OfBacklashWithBouncesAreInProportionToTheSizeToo) {
-  const double size = performance_of(bouncing_drive().drivetrain()).amplitude;
+  const double size = amplitude_in(closed_answer(bouncing_drive()));
   const FeasibleValues found = feasible_values(bouncing_drive(), "backlash", at_most(0.5 * size));
   EXPECT_EQ(found.kind, SearchKind::scanned);
   ASSERT_EQ(found.intervals.size(), 1U);
@@ -83,11 +85,11 @@ TEST(FeasibleValues, OfBacklashWithBouncesAreInProportionToTheSizeToo) {
 }
 
 TEST(FeasibleValues, WithBouncesEndWhereGrowthAtRestPassesOne) {
-  const FeasibleValues found = feasible_values(bouncing_drive(), "load_friction", no_hunting());
+  const FeasibleValues found = feasible_values(bouncing_drive(), "load.friction", no_hunting());
   ASSERT_FALSE(found.intervals.empty());
   const double end = found.intervals[0].low;
   const auto growth_at = [](double value) {
-    return performance_of(bouncing_drive().with("load_friction", value)).growth_at_rest;
+    return line_of(bouncing_drive(), "load.friction").growth_at(value);
   };
   EXPECT_LT(growth_at(end), 1.0);
   EXPECT_GT(growth_at(end), 1.0 - 2e-6);
@@ -97,11 +99,11 @@ TEST(FeasibleValues, WithBouncesEndWhereGrowthAtRestPassesOne) {
 TEST(FeasibleValues, ThatDoNotExistHaveAClosestOne) {
   Target enormous;
   enormous.require(Quantity::amplitude, {100.0, Target::infinity});
-  const FeasibleValues found = feasible_values(sample_drive(), "load_inertia", enormous);
+  const FeasibleValues found = feasible_values(sample_drive(), "load.inertia", enormous);
   EXPECT_TRUE(found.intervals.empty());
   ASSERT_TRUE(found.closest.has_value());
   const auto amplitude_at = [](double value) {
-    return performance_of(sample_drive().with("load_inertia", value)).amplitude;
+    return amplitude_in(line_of(sample_drive(), "load.inertia").answer_at(value));
   };
   for (const double value : {found.searched.low, 0.01, 0.1, 1.0, 10.0, found.searched.high}) {
     EXPECT_GE(amplitude_at(*found.closest), amplitude_at(value)) << value;
@@ -159,7 +161,7 @@ struct Scan {
 /// range those are feasible that meet it.
 void scan(const Task& task, int values, Scan& found_so_far) {
   SCOPED_TRACE(describe(task));
-  const ChangeableDrive drive = changeable(task.servo);
+  const Drive drive = drive_of(task.servo);
   const FeasibleValues found = feasible_values(drive, task.parameter, task.target);
   EXPECT_EQ(found.kind, SearchKind::certified);
   for (const Bounds& sliver : found.undecided) {
@@ -167,7 +169,7 @@ void scan(const Task& task, int values, Scan& found_so_far) {
     ++found_so_far.slivers;
   }
   const auto is_met_at = [&](double value) {
-    return is_met(task.target, performance_of(drive.with(task.parameter, value)));
+    return is_met(task.target, line_of(drive, task.parameter).answer_at(value));
   };
   for (const Bounds& interval : found.intervals) {
     EXPECT_TRUE(is_met_at(interval.low)) << interval.low;
@@ -232,11 +234,11 @@ TEST(PropertyFeasibleValues, AScanFindsNoOthersWithBounces) {
     task.servo.inertia_ratio = draws.log_uniform(0.3, 3.0);
     task.servo.restitution = draws.uniform(0.05, 0.3);
     task.parameter = all_parameters[2 * static_cast<std::size_t>(i)];
-    const ChangeableDrive drive = changeable(task.servo);
+    const Drive drive = drive_of(task.servo);
     const FeasibleValues found = feasible_values(drive, task.parameter, task.target);
     EXPECT_TRUE(found.undecided.empty());
     const auto is_met_at = [&](double value) {
-      return is_met(task.target, performance_of(drive.with(task.parameter, value)));
+      return is_met(task.target, line_of(drive, task.parameter).answer_at(value));
     };
     for (const Bounds& interval : found.intervals) {
       EXPECT_TRUE(is_met_at(interval.low)) << interval.low;
@@ -255,13 +257,74 @@ TEST(PropertyFeasibleValues, AScanFindsNoOthersWithBounces) {
   EXPECT_LT(met, tasks * scanned * 9 / 10);
 }
 
+/// One of five conditions that nearly every drive keeps.
+QuantityLimit loose_limit(std::size_t kind) {
+  constexpr double loose = 1e6;
+  switch (kind) {
+    case 0:
+      return {Quantity::bandwidth, {1.0 / loose, Target::infinity}};
+    case 1:
+      return {Quantity::phase_margin, {1.0 / loose, Target::infinity}};
+    case 2:
+      return {Quantity::ceiling, {0.0, loose}};
+    default:
+      return {Quantity::overshoot, {-Target::infinity, loose}};
+  }
+}
+
+/// What the condition took away misses it, at a value that is looked at by itself.
+void expect_missed(const Drive& drive, std::string_view parameter, const Bounds& interval,
+                   const FeasibleValues& narrowed, const Target& target) {
+  const Axis axis{.path = std::string(parameter)};
+  constexpr int values = 40;
+  for (int i = 0; i <= values; ++i) {
+    const double value = interval.low + (interval.high - interval.low) * i / values;
+    if (narrowed.contains(value)) continue;
+    Drive changed = drive;
+    set_on(axis, changed, value);
+    EXPECT_FALSE(is_met(target, analyse(changed, wanted_for(target, drive)))) << value;
+  }
+}
+
+// A condition that the answers keep loses no proof, no range and no interval.
+TEST(PropertyFeasibleValues, AConditionMoreLosesNothing) {
+  TracedDraws draws(4501);
+  constexpr std::size_t tasks = 200;
+  constexpr std::size_t steps = 10;  // one in ten is on a step, which takes milliseconds a value
+  std::size_t same = 0;
+  for (std::size_t i = 0; i < tasks && !testing::Test::HasFailure(); ++i) {
+    const Task task = drawn_task(draws);
+    SCOPED_TRACE(testing::Message() << i << " " << describe(task));
+    const Drive drive = drive_of(task.servo);
+    const FeasibleValues alone = feasible_values(drive, task.parameter, task.target);
+    Target more = task.target;
+    if (i % steps == 1) {
+      more.no_runaway = true;
+    } else {
+      more.limits.push_back(loose_limit(i % steps == 0 ? 3 : i % 3));
+    }
+    const FeasibleValues both = feasible_values(drive, task.parameter, more);
+    EXPECT_EQ(both.kind, alone.kind);
+    EXPECT_EQ(both.searched, alone.searched);
+    if (both.intervals == alone.intervals) {
+      ++same;
+      continue;
+    }
+    for (const Bounds& interval : alone.intervals) {
+      expect_missed(drive, task.parameter, interval, both, more);
+    }
+  }
+  RecordProperty("the same intervals", std::to_string(same));
+  EXPECT_GT(same, tasks * 9 / 10);
+}
+
 TEST(EdgeFeasibleValues, BesideAShaftWithoutFrictionAreFound) {
-  const ChangeableDrive drive = changeable(NormalizedServo{
+  const Drive drive = drive_of(NormalizedServo{
       .damping = 0.2, .inertia_ratio = 2.0, .friction_ratio = 0.0, .backlash = 0.3});
   for (const std::string_view parameter : all_parameters) {
-    if (parameter == "restitution") continue;
+    if (parameter == "contact.restitution") continue;
     const FeasibleValues found = feasible_values(drive, parameter, no_hunting());
-    EXPECT_EQ(found.intervals.empty(), parameter != "load_friction")
+    EXPECT_EQ(found.intervals.empty(), parameter != "load.friction")
         << parameter;  // without friction at the load nothing else ends it
   }
 }

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "analysis/design/drives.hpp"
+#include "analysis/design/searched_margin.hpp"
 #include "analysis/design/target.hpp"
 #include "base/described.hpp"
 #include "base/traced_draws.hpp"
@@ -37,25 +38,30 @@ NormalizedServo drawn_servo(SeededDraws& draws) {
 
 /// The first value from the present one towards `end` at which hunting starts or stops, in 4,000
 /// steps that grow by ratio, or evenly from 0; NaN if there is none.
-double first_change(const ChangeableDrive& drive, std::string_view parameter, double end) {
-  const double present = drive.present_value(parameter);
-  const bool now = hunts(drive.drivetrain());
+double first_change(const Drive& drive, std::string_view parameter, double end) {
+  const ClosedFormLine line = line_of(drive, parameter);
+  const double present = line.present();
+  const bool now = hunts(drivetrain_of(drive));
   constexpr int steps = 4000;
   double last = present;
   for (int i = 1; i <= steps; ++i) {
     const double share = static_cast<double>(i) / steps;
     double value = present > 0.0 ? present * std::pow(end / present, share) : end * share;
-    if (hunts(drive.with(parameter, value)) == now) {
+    if (hunts(line.at(value)->drivetrain) == now) {
       last = value;
       continue;
     }
     for (double middle = 0.5 * (last + value); middle != last && middle != value;
          middle = 0.5 * (last + value)) {
-      (hunts(drive.with(parameter, middle)) == now ? last : value) = middle;
+      (hunts(line.at(middle)->drivetrain) == now ? last : value) = middle;
     }
     return value;
   }
   return std::numeric_limits<double>::quiet_NaN();
+}
+
+ParameterMargin margin_of(const Drive& drive, std::string_view parameter) {
+  return parameter_margin(drive, axis_to_search(drive, parameter), hunts(drivetrain_of(drive)));
 }
 
 void expect_same(const std::optional<double>& found, double scanned) {
@@ -70,17 +76,17 @@ TEST(PropertyHuntingMargin, OfEachParameterIsWhereBisectionEnds) {
   for (int i = 0; i < 20; ++i) {
     const NormalizedServo servo = drawn_servo(draws);
     SCOPED_TRACE(described(servo));
-    const ChangeableDrive drive = changeable(servo);
+    const Drive drive = drive_of(servo);
     for (const std::string_view parameter :
-         {"gear_ratio", "error_gain", "load_friction", "motor_friction", "tachometer",
-          "load_inertia", "motor_inertia"}) {
+         {"gearbox.ratio", "controller.proportional", "load.friction", "motor.friction",
+          "controller.motor_speed_feedback", "load.inertia", "motor.inertia"}) {
       SCOPED_TRACE(parameter);
-      const ParameterMargin margin = parameter_margin(drive, parameter);
+      const ParameterMargin margin = margin_of(drive, parameter);
       EXPECT_EQ(margin.kind, SearchKind::certified);
-      EXPECT_EQ(margin.hunts, hunts(drive.drivetrain()));
+      EXPECT_EQ(margin.hunts, hunts(drivetrain_of(drive)));
       expect_same(margin.above, first_change(drive, parameter, margin.searched.high));
       found += margin.above.has_value() + margin.below.has_value();
-      if (parameter == "tachometer") {
+      if (parameter == "controller.motor_speed_feedback") {
         EXPECT_FALSE(margin.below);
         continue;
       }
@@ -92,17 +98,18 @@ TEST(PropertyHuntingMargin, OfEachParameterIsWhereBisectionEnds) {
 }
 
 TEST(HuntingMargin, InPerCentOfThePresentValue) {
-  const ChangeableDrive drive = changeable(NormalizedServo{
+  const Drive drive = drive_of(NormalizedServo{
       .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3});
-  const ParameterMargin gain = parameter_margin(drive, "error_gain");
+  const ParameterMargin gain = margin_of(drive, "controller.proportional");
   EXPECT_TRUE(gain.hunts);
   EXPECT_FALSE(gain.above);  // stiffer loops hunt
   ASSERT_TRUE(gain.below);
   EXPECT_LT(gain.per_cent_below().value(), 0.0);
-  EXPECT_FALSE(hunts(drive.with("error_gain", *gain.below)));
-  EXPECT_TRUE(hunts(drive.with("error_gain", *gain.below * (1.0 + 1e-12))));
+  EXPECT_FALSE(hunts(line_of(drive, "controller.proportional").at(*gain.below)->drivetrain));
+  EXPECT_TRUE(
+      hunts(line_of(drive, "controller.proportional").at(*gain.below * (1.0 + 1e-12))->drivetrain));
   EXPECT_DOUBLE_EQ(gain.per_cent_below().value(), 100.0 * (*gain.below - 1.0));
-  const ParameterMargin backlash = parameter_margin(drive, "backlash");
+  const ParameterMargin backlash = margin_of(drive, "backlash");
   EXPECT_FALSE(backlash.below || backlash.above);
 }
 
@@ -160,7 +167,7 @@ TEST(PropertyHuntingMargin, NoRandomDirectionIsShorter) {
   for (int i = 0; i < 40; ++i) {
     const NormalizedServo servo = drawn_servo(draws);
     SCOPED_TRACE(described(servo));
-    const Drivetrain drive = changeable(servo, draws.log_uniform(1.0, 100.0)).drivetrain();
+    const Drivetrain drive = drivetrain_of(drive_of(servo, draws.log_uniform(1.0, 100.0)));
     const OverallMargin margin = overall_margin(drive);
     ASSERT_EQ(margin.outcome, MarginOutcome::found);
     EXPECT_GE(margin.converged, 1U);
@@ -187,7 +194,7 @@ TEST(PropertyHuntingMargin, ChangesNoUnit) {
   for (int i = 0; i < 50; ++i) {
     const NormalizedServo servo = drawn_servo(draws);
     SCOPED_TRACE(described(servo));
-    const OverallMargin margin = overall_margin(changeable(servo).drivetrain());
+    const OverallMargin margin = overall_margin(drivetrain_of(drive_of(servo)));
     ASSERT_EQ(margin.outcome, MarginOutcome::found);
     const LogChange& x = *margin.change;
     const double inertias = x.motor_inertia + x.load_inertia;
@@ -203,12 +210,13 @@ TEST(PropertyHuntingMargin, OfAllTogetherIsShorterThanOfOne) {
   for (int i = 0; i < 10; ++i) {
     const NormalizedServo servo = drawn_servo(draws);
     SCOPED_TRACE(described(servo));
-    const HuntingMargin margin = hunting_margin(changeable(servo));
+    const HuntingMargin margin = hunting_margin(drive_of(servo));
     ASSERT_EQ(margin.parameters.size(), all_parameters.size() - 1);  // all but restitution
     for (const ParameterMargin& one : margin.parameters) {
-      const bool is_number = one.parameter == "load_friction" ||
-                             one.parameter == "motor_friction" || one.parameter == "load_inertia" ||
-                             one.parameter == "motor_inertia" || one.parameter == "error_gain";
+      const bool is_number = one.parameter == "load.friction" ||
+                             one.parameter == "motor.friction" || one.parameter == "load.inertia" ||
+                             one.parameter == "motor.inertia" ||
+                             one.parameter == "controller.proportional";
       if (!is_number) continue;
       for (const std::optional<double>& end : {one.below, one.above}) {
         if (!end) continue;
@@ -218,24 +226,24 @@ TEST(PropertyHuntingMargin, OfAllTogetherIsShorterThanOfOne) {
   }
 }
 
-ChangeableDrive bouncing_drive() {
-  return changeable(NormalizedServo{.damping = 0.3,
-                                    .inertia_ratio = 2.0,
-                                    .friction_ratio = 0.3,
-                                    .backlash = 0.3,
-                                    .restitution = 0.2});
+Drive bouncing_drive() {
+  return drive_of(NormalizedServo{.damping = 0.3,
+                                  .inertia_ratio = 2.0,
+                                  .friction_ratio = 0.3,
+                                  .backlash = 0.3,
+                                  .restitution = 0.2});
 }
 
 TEST(HuntingMargin, WithBouncesOfAllTogetherIsWhereRestTurnsStable) {
-  const Drivetrain drive = bouncing_drive().drivetrain();
+  const Drivetrain drive = drivetrain_of(bouncing_drive());
   const OverallMargin margin = overall_margin(drive);
   ASSERT_EQ(margin.outcome, MarginOutcome::found);
   EXPECT_TRUE(margin.hunts);
   EXPECT_NEAR(growth_of(at_boundary(drive, margin)), 1.0, 1e-10);
   const Direction along = direction_of(margin);
-  EXPECT_EQ(performance_of(changed(drive, along, margin.change->length() + 1e-3)).verdict,
+  EXPECT_EQ(closed_answer(changed(drive, along, margin.change->length() + 1e-3)).verdict,
             Verdict::cannot_hunt);
-  EXPECT_EQ(performance_of(changed(drive, along, margin.change->length() - 1e-3)).verdict,
+  EXPECT_EQ(closed_answer(changed(drive, along, margin.change->length() - 1e-3)).verdict,
             Verdict::hunts);
   TracedDraws draws(2405);
   for (int k = 0; k < 500; ++k) {
@@ -244,12 +252,12 @@ TEST(HuntingMargin, WithBouncesOfAllTogetherIsWhereRestTurnsStable) {
 }
 
 TEST(HuntingMargin, WithBouncesOfOneIsWhereTheVerdictChanges) {
-  const ParameterMargin margin = parameter_margin(bouncing_drive(), "load_friction");
+  const ParameterMargin margin = margin_of(bouncing_drive(), "load.friction");
   EXPECT_EQ(margin.kind, SearchKind::scanned);
   EXPECT_TRUE(margin.hunts);
   EXPECT_FALSE(margin.below);
   const auto verdict_at = [](double value) {
-    return performance_of(bouncing_drive().with("load_friction", value)).verdict;
+    return line_of(bouncing_drive(), "load.friction").answer_at(value).verdict;
   };
   EXPECT_EQ(verdict_at(*margin.above), Verdict::cannot_hunt);
   EXPECT_EQ(verdict_at(*margin.above * (1.0 - 1e-4)), Verdict::hunts);
@@ -257,7 +265,7 @@ TEST(HuntingMargin, WithBouncesOfOneIsWhereTheVerdictChanges) {
 
 TEST(EdgeHuntingMargin, SaysWhatItIsNotWorkedOutFor) {
   const auto outcome_of = [](NormalizedServo servo) {
-    return overall_margin(changeable(servo).drivetrain()).outcome;
+    return overall_margin(drivetrain_of(drive_of(servo))).outcome;
   };
   const NormalizedServo sample{
       .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3};
@@ -275,7 +283,7 @@ TEST(EdgeHuntingMargin, SaysWhatItIsNotWorkedOutFor) {
 TEST(EdgeHuntingMargin, IsFoundWhereGrowthAtRestIsNought) {
   const NormalizedServo servo{
       .damping = 3.0, .inertia_ratio = 1.0, .friction_ratio = 0.5, .backlash = 0.1};
-  const Drivetrain drive = changeable(servo).drivetrain();
+  const Drivetrain drive = drivetrain_of(drive_of(servo));
   ASSERT_EQ(growth_of(drive), 0.0);
   const OverallMargin margin = overall_margin(drive);
   ASSERT_EQ(margin.outcome, MarginOutcome::found);

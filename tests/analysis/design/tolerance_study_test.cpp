@@ -35,7 +35,7 @@ double amplitude_per_backlash(double load_friction) {
   Drive drive = sample_data_sheet();
   drive.gearbox.backlash = 1.0;
   drive.load.friction.viscous = load_friction;
-  return performance_of(referred_drivetrain(drive)).amplitude;
+  return amplitude_in(closed_answer(drive));
 }
 
 constexpr SamplePlan fixed_sampling{.points = 4096, .replicates = 16, .seed = 41};
@@ -82,8 +82,8 @@ INSTANTIATE_TEST_SUITE_P(Kinds, OracleToleranceOfBacklash,
                                          Distribution(Normal{0.3, 0.2, 0.0, 0.7})));
 
 TEST(OracleToleranceStudy, OneThresholdDecidesHowManyHunt) {
-  const ChangeableDrive drive(sample_data_sheet());
-  const FeasibleValues quiet = feasible_values(drive, "load_friction", no_hunting());
+  const Drive drive = sample_data_sheet();
+  const FeasibleValues quiet = feasible_values(drive, "load.friction", no_hunting());
   ASSERT_FALSE(quiet.intervals.empty());
   const double threshold = quiet.intervals.front().low;
   ASSERT_GT(threshold, 0.038);
@@ -243,7 +243,7 @@ TEST(PropertyToleranceStudy, APlainCountOfDrivesAgrees) {
   const TolerancedDrive drive = widely_toleranced();
   const Target target = at_most(0.1);
   const ToleranceStudy study = study_tolerances(drive, sampling, {.target = target});
-  // Plain random draws, performance_of() one by one.
+  // Plain random draws, one by one.
   constexpr std::size_t draws = 20'000;
   SeededDraws random(46);
   double hunting = 0.0;
@@ -405,10 +405,10 @@ TEST(EdgeToleranceStudy, AnExactNumberHasNoInfluence) {
 
 TEST(EdgeToleranceStudy, WithoutVariedNumbersAllPiecesAreAlike) {
   const ToleranceStudy study = study_tolerances(toleranced({}), {.points = 4, .replicates = 2});
-  const Performance nominal = performance_of(referred_drivetrain(sample_data_sheet()));
+  const Answer nominal = closed_answer(sample_data_sheet());
   EXPECT_EQ(study.hunting.value, 1.0);
-  EXPECT_NEAR(study.amplitude.front().value->value, nominal.amplitude, 1e-13);
-  EXPECT_NEAR(study.frequency.back().value->value, nominal.frequency, 1e-13);
+  EXPECT_NEAR(study.amplitude.front().value->value, *nominal.value(Quantity::amplitude), 1e-13);
+  EXPECT_NEAR(study.frequency.back().value->value, *nominal.value(Quantity::frequency), 1e-13);
   EXPECT_EQ(study.amplitude.front().value->standard_error, 0.0);
   EXPECT_EQ(study.histogram.counts.back(), 8U);
 }

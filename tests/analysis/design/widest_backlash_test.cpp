@@ -21,9 +21,7 @@ Target at_most(double size) {
 constexpr SamplePlan sampling{.points = 2048, .replicates = 16, .seed = 51};
 
 /// Size of the sample for one rad of backlash.
-double amplitude_per_backlash() {
-  return performance_of(referred_drivetrain(sample_data_sheet())).amplitude / 0.3;
-}
+double amplitude_per_backlash() { return amplitude_in(closed_answer(sample_data_sheet())) / 0.3; }
 
 TEST(OracleWidestBacklash, OfBacklashAloneIsALine) {
   SCOPED_TRACE(sampling.seed);

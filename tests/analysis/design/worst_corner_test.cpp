@@ -49,7 +49,7 @@ void expect_unbeaten(const TolerancedDrive& drive, std::uint64_t seed) {
   columns[Quantity::amplitude] = amplitude;
   columns[Quantity::growth_at_rest] = growth_at_rest;
   find_limit_cycles(servos, columns);
-  const bool hunts = worst.performance.verdict != Verdict::cannot_hunt;
+  const bool hunts = worst.result.verdict != Verdict::cannot_hunt;
   double largest = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     const bool here = verdict[i] != Verdict::cannot_hunt;
@@ -57,7 +57,7 @@ void expect_unbeaten(const TolerancedDrive& drive, std::uint64_t seed) {
     const std::vector<double>& of = hunts ? amplitude : growth_at_rest;
     if (here || !hunts) largest = std::max(largest, of[i]);
   }
-  const double found = hunts ? worst.performance.amplitude : worst.performance.growth_at_rest;
+  const double found = hunts ? worst.result.amplitude : worst.result.growth_at_rest;
   EXPECT_GT(found, largest);
   // It is what its values make.
   const NormalizedServo servo = drive_with(drive, values_of(worst)).servo;
@@ -94,11 +94,11 @@ TEST(PropertyWorstCorner, WithoutHuntingIsTheLargestGrowth) {
 TEST(OracleWorstCorner, OfBacklashIsTheWidest) {
   const WorstCorner worst =
       worst_corner(toleranced({{"gearbox.backlash", Normal{0.3, 0.01, 0.2, {}}}}));
-  const double nominal = performance_of(referred_drivetrain(sample_data_sheet())).amplitude;
+  const double nominal = amplitude_in(closed_answer(sample_data_sheet()));
   ASSERT_EQ(worst.numbers.size(), 1U);
   EXPECT_EQ(worst.numbers[0].value, 0.3 + 3.0 * 0.01);
   EXPECT_EQ(worst.numbers[0].place, PlaceInRange::at_high);
-  EXPECT_NEAR(worst.performance.amplitude, nominal * 1.1, 1e-13);
+  EXPECT_NEAR(worst.result.amplitude, nominal * 1.1, 1e-13);
 }
 
 TEST(OracleWorstCorner, MayLieInside) {
@@ -116,8 +116,8 @@ TEST(OracleWorstCorner, MayLieInside) {
       largest = std::max(largest, cycle->amplitude);
     }
   }
-  EXPECT_GE(worst.performance.amplitude, largest);
-  EXPECT_LT(worst.performance.amplitude, largest * (1.0 + 1e-6));
+  EXPECT_GE(worst.result.amplitude, largest);
+  EXPECT_LT(worst.result.amplitude, largest * (1.0 + 1e-6));
 }
 
 TEST(EdgeWorstCorner, OfLotsIsOneOfThem) {
@@ -131,15 +131,14 @@ TEST(EdgeWorstCorner, OfLotsIsOneOfThem) {
 TEST(EdgeWorstCorner, NothingVariedIsTheNominalDrive) {
   const WorstCorner worst = worst_corner(toleranced({}));
   EXPECT_TRUE(worst.numbers.empty());
-  EXPECT_NEAR(worst.performance.amplitude,
-              performance_of(referred_drivetrain(sample_data_sheet())).amplitude, 1e-13);
+  EXPECT_NEAR(worst.result.amplitude, amplitude_in(closed_answer(sample_data_sheet())), 1e-13);
 }
 
 TEST(EdgeWorstCorner, AnyNumberOfThreadsGivesTheSameBits) {
   const WorstCorner one = worst_corner(widely_toleranced(), {}, {.threads = 1});
   const WorstCorner three = worst_corner(widely_toleranced(), {}, {.threads = 3});
   EXPECT_EQ(values_of(one), values_of(three));
-  EXPECT_EQ(one.performance.amplitude, three.performance.amplitude);
+  EXPECT_EQ(one.result.amplitude, three.result.amplitude);
 }
 
 TEST(WorstCorner, TellsWhatShareOfTheClimbsIsDone) {

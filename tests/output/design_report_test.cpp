@@ -1,5 +1,5 @@
-// What a searched design reports beside the values that meet the target.
-#include "output/searched_design_report.hpp"
+// What a design reports beside the values that meet the target.
+#include "output/design_report.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,21 +7,22 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-namespace gearlash::searched_design_report_test {
+namespace gearlash::design_report_test {
 namespace {
 
 using testing::HasSubstr;
 using testing::Not;
 
 /// One value of the gap that meets the target, with the loop that is given.
-SearchedDesignReport report_with(const std::optional<LinearLoop>& loop) {
-  SearchedDesignReport report;
+DesignReport report_with(const std::optional<LinearLoop>& loop) {
+  DesignReport report;
   report.target_text = "no-hunting";
   report.target.no_hunting = true;
-  SearchedParameter parameter;
+  DesignedParameter parameter;
   parameter.values.parameter = "gearbox.backlash";
   parameter.values.present = 0.2;
   parameter.values.searched = {0.02, 2.0};
+  parameter.values.kind = SearchKind::searched;
   parameter.values.intervals = {{0.02, 0.1}};
   parameter.values.grid = {0.02, 0.1, 0.2, 2.0};
   DriveWithValue one{.value = 0.1};
@@ -32,11 +33,11 @@ SearchedDesignReport report_with(const std::optional<LinearLoop>& loop) {
   return report;
 }
 
-TEST(SearchedDesignReport, ShowsBandwidthInHertzAndPhaseMarginInDegrees) {
-  const SearchedDesignReport report = report_with(LinearLoop{.is_stable = true,
-                                                             .bandwidth = 12.5,
-                                                             .phase_margin = std::numbers::pi / 4.0,
-                                                             .crossover = 7.25});
+TEST(DesignReport, ShowsBandwidthInHertzAndPhaseMarginInDegrees) {
+  const DesignReport report = report_with(LinearLoop{.is_stable = true,
+                                                     .bandwidth = 12.5,
+                                                     .phase_margin = std::numbers::pi / 4.0,
+                                                     .crossover = 7.25});
   const std::string text = design_text(report);
   EXPECT_THAT(text, HasSubstr("settles  bandwidth  phase margin\n"));
   EXPECT_THAT(text, HasSubstr("12.5 Hz    45.0 deg\n"));
@@ -49,8 +50,8 @@ TEST(SearchedDesignReport, ShowsBandwidthInHertzAndPhaseMarginInDegrees) {
   EXPECT_EQ(json["present"]["loop"], nullptr);  // not given above
 }
 
-TEST(SearchedDesignReport, LeavesWhatThereIsNotBlank) {
-  const SearchedDesignReport unstable = report_with(LinearLoop{});
+TEST(DesignReport, LeavesWhatThereIsNotBlank) {
+  const DesignReport unstable = report_with(LinearLoop{});
   EXPECT_THAT(design_text(unstable), Not(HasSubstr(" Hz")));
   EXPECT_THAT(design_text(unstable), Not(HasSubstr(" deg\n")));
   const auto loop = nlohmann::json::parse(design_json(unstable))["answers"][0]["nearest"]["loop"];
@@ -63,4 +64,4 @@ TEST(SearchedDesignReport, LeavesWhatThereIsNotBlank) {
 }
 
 }  // namespace
-}  // namespace gearlash::searched_design_report_test
+}  // namespace gearlash::design_report_test

@@ -1,0 +1,101 @@
+#include "closed_form/closed_answer.hpp"
+
+#include <cmath>
+
+#include "base/interval.hpp"
+#include "base/special_numbers.hpp"
+
+namespace gearlash {
+namespace {
+
+Cycle cycle_of(const LimitCycle& found, Certainty certainty, double time_unit,
+               const std::optional<double>& stiffness) {
+  Cycle cycle;
+  cycle.kind = found.kind;
+  cycle.stability = found.stable ? Stability::stable : Stability::unstable;
+  cycle.certainty = certainty;
+  cycle.amplitude = found.amplitude;
+  cycle.motor_amplitude = found.motor_amplitude;
+  cycle.period = found.period * time_unit;
+  cycle.multiplier = found.multiplier;
+  cycle.residual = found.residual;
+  cycle.impact_speed = found.impact_speed / time_unit;
+  cycle.engaged_time = found.engaged_time * time_unit;
+  cycle.separated_time = found.separated_time * time_unit;
+  cycle.events_per_period = found.impacts_per_period;
+  cycle.settles = found.settles;
+  if (stiffness && !std::isnan(found.energy.lost())) {
+    const double unit = *stiffness;
+    cycle.energy = EnergyLost{found.energy.motor_friction * unit, found.energy.load_friction * unit,
+                              found.energy.impacts * unit};
+  }
+  return cycle;
+}
+
+}  // namespace
+
+Answer answer_of(const LimitCycleAnalysis& analysis, const ClosedFormServo& servo,
+                 std::optional<double> stiffness) {
+  const double time_unit = 1.0 / servo.natural_frequency;
+  const NormalizedServo& normal = servo.servo;
+  Answer answer;
+  answer.verdict = analysis.verdict;
+  answer.certainty = analysis.certainty;
+  answer.completeness = analysis.certainty;
+  answer.engine = Engine::closed_form;
+  answer.normal_form = NormalFormNumbers{.damping = normal.damping,
+                                         .inertia_ratio = normal.inertia_ratio,
+                                         .friction_ratio = normal.friction_ratio,
+                                         .backlash = normal.backlash,
+                                         .restitution = normal.restitution,
+                                         .natural_frequency = servo.natural_frequency,
+                                         .stiffness = stiffness};
+  answer.growth_at_rest = known(analysis.growth_at_rest);
+  answer.is_dissipative = analysis.is_dissipative;
+  answer.rests_engaged = analysis.rests_engaged;
+  answer.neutral_swings = analysis.neutral_swings;
+  const Certainty of_cycles = analysis.is_proved() ? analysis.certainty : Certainty::computed;
+  for (const LimitCycle& cycle : analysis.cycles) {
+    answer.cycles.push_back(cycle_of(cycle, of_cycles, time_unit, stiffness));
+  }
+  if (const auto amplitude = known(analysis.irregular_amplitude)) {
+    answer.irregular.push_back({.amplitude = *amplitude});
+  }
+  return answer;
+}
+
+AnswerBounds bounds_of(const DriveBox& box, double guessed_flight_time) {
+  const CycleBounds cycles = bound_cycles(box.servo, guessed_flight_time);
+  AnswerBounds bounds;
+  bounds.may_hunt = !cycles.none_hunt() && box.backlash.high != 0.0;
+  bounds.may_rest = !cycles.all_hunt() || box.backlash.low == 0.0;
+  bounds.may_run_away = bounds.may_hunt && !cycles.has_cycle;
+  const Interval amplitude = Interval(box.backlash) * Interval(cycles.amplitude);
+  const Interval period = Interval(cycles.period) * Interval(box.time_unit);
+  bounds.quantities = {{Quantity::growth_at_rest, cycles.growth_at_rest},
+                       {Quantity::amplitude, amplitude.bounds()},
+                       {Quantity::period, period.bounds()},
+                       {Quantity::frequency, Interval(1.0 / period).bounds()}};
+  return bounds;
+}
+
+double flight_time_of(const Answer& answer) {
+  const Cycle* cycle = answer.largest_stable();
+  if (cycle == nullptr || !answer.normal_form) return not_a_number;
+  return 0.5 * cycle->separated_time * answer.normal_form->natural_frequency;
+}
+
+Answer with_backlash(Answer answer, double backlash) {
+  const double factor = backlash / answer.normal_form->backlash;
+  answer.normal_form->backlash = backlash;
+  for (Cycle& cycle : answer.cycles) {
+    cycle.amplitude *= factor;
+    cycle.motor_amplitude *= factor;
+    cycle.impact_speed *= factor;
+    cycle.energy.reset();
+  }
+  for (IrregularMotion& motion : answer.irregular) motion.amplitude *= factor;
+  return answer;
+}
+
+}  // namespace gearlash
