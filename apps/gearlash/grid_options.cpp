@@ -14,7 +14,6 @@
 #include "analysis/grid/hunting_boundary.hpp"
 #include "base/progress_part.hpp"
 #include "base/range_check.hpp"
-#include "input/axis_text.hpp"
 #include "machine_faults.hpp"
 #include "picture/grid_map.hpp"
 #include "terminal.hpp"
@@ -69,9 +68,8 @@ void refuse_given(const ServoOptions& options, const AxisText& axis, const std::
   }
 }
 
-/// The drive without the parameters on the axes, which no option may give. Without a backlash,
-/// amplitudes are in backlashes. An axis that cannot be read may be the one for a missing
-/// parameter, so nothing is then reported as missing.
+}  // namespace
+
 std::optional<WrittenDrive> read_fixed_drive(const ServoOptions& options,
                                              const std::vector<AxisText>& axes, bool are_all_there,
                                              const std::vector<FileUse>& outputs, Faults& faults) {
@@ -91,6 +89,8 @@ std::optional<WrittenDrive> read_fixed_drive(const ServoOptions& options,
   }
   return resolve_drive(completed, outputs, faults);
 }
+
+namespace {
 
 std::vector<Axis> read_axes(const std::vector<AxisText>& texts, const Drive& drive,
                             Faults& faults) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "command.hpp"
+#include "input/axis_text.hpp"
 #include "limit_options.hpp"
 #include "output/grid_netcdf.hpp"
 #include "output/grid_table.hpp"
@@ -50,6 +51,13 @@ struct GridTask {
   std::vector<Plot> plots;
   Limits limits;
 };
+
+/// The drive without the parameters on the axes, which no option may give. Without a backlash,
+/// amplitudes are in backlashes. If not all axes could be read, one of those may be that of a
+/// missing parameter, so nothing is then reported as missing.
+std::optional<WrittenDrive> read_fixed_drive(const ServoOptions& options,
+                                             const std::vector<AxisText>& axes, bool are_all_there,
+                                             const std::vector<FileUse>& outputs, Faults& faults);
 
 /// The task that the options describe. A normal form without a backlash has amplitudes in
 /// backlashes. `kinds` are those of its pictures, that of --output first. Throws InvalidInput with

@@ -91,24 +91,6 @@ std::string draw(const Result& result, const Plot& plot, LimitedWork& work) {
   return draw_time_response(response_picture(result.report, result.analysis), plot.format);
 }
 
-/// A verdict of hunting is undecided if the search found no amplitude.
-bool is_decided(const Answer& answer) {
-  if (answer.search && !answer.search->is_complete) return false;
-  switch (answer.verdict) {
-    case Verdict::hunts:
-    case Verdict::hunts_if_disturbed:
-    case Verdict::hunts_irregularly:
-      return answer.largest_stable() != nullptr || !answer.irregular.empty();
-    case Verdict::undecided:
-      return false;
-    default:
-      return true;
-  }
-}
-
-/// The memory of the tool itself, bytes.
-constexpr double tool_bytes = 30e6;
-
 /// The parameters of the margins; none: the usual ones.
 std::vector<Axis> read_parameters(const LimitCycleOptions& options, const Drive& drive,
                                   Faults& faults) {
@@ -156,12 +138,10 @@ Result analysed(const WrittenDrive& written, double specification, const Provena
   Result result;
   {
     TerminalProgress progress(work, "Searching");
-    Wanted wanted{.ceiling = true, .quantization = true, .rest_band = specification};
-    // A third for a motion, what is made of it included, beside the tool itself.
-    const double for_motion = (work.limits().bytes - tool_bytes) / 3.0;
-    if (for_motion < static_cast<double>(wanted.motion_bytes)) {
-      wanted.motion_bytes = static_cast<std::size_t>(for_motion);
-    }
+    const Wanted wanted{.ceiling = true,
+                        .quantization = true,
+                        .rest_band = specification,
+                        .motion_bytes = bytes_of_motion(work.limits())};
     result.analysis = analyse_in_full(written.drive, wanted, progress);
   }
   result.report = report_of(written.drive, result.analysis.answer, written.angle, provenance);

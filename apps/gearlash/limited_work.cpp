@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <fstream>
 
+#include "gearlash/analyse.hpp"
+
 namespace gearlash::cli {
 namespace {
 
@@ -20,6 +22,14 @@ double peak_memory() {
 }
 
 }  // namespace
+
+std::size_t bytes_of_motion(const Limits& limits, std::size_t searches) {
+  constexpr double tool_bytes = 30e6;  // the tool itself
+  // A third for a motion, what is made of it included.
+  const double share = (limits.bytes - tool_bytes) / (3.0 * static_cast<double>(searches));
+  const std::size_t usual = Wanted{}.motion_bytes;
+  return share < static_cast<double>(usual) ? static_cast<std::size_t>(share) : usual;
+}
 
 LimitedWork::LimitedWork(const Limits& limits) : limits_(limits), request_(std::in_place) {
   constexpr double longest = 1e9;  // s; more would overflow the clock

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -15,6 +16,9 @@ struct Limits {
   double seconds = infinity;
   double bytes = infinity;  ///< of the whole tool
 };
+
+/// Bytes that a search may keep of a motion, of so many searches at once.
+std::size_t bytes_of_motion(const Limits& limits, std::size_t searches = 1);
 
 /// The work of a verb. While it lasts, Ctrl-C and similar signals stop it as a limit does, so that
 /// what is known by then can be printed.

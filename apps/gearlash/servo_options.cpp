@@ -92,11 +92,7 @@ void add_set_option(Command& command, ServoOptions& options) {
       ->group(servo_group);
 }
 
-namespace {
-
-void add_options(Command& command, ServoOptions& options, const char* file_help,
-                 const char* sensor_help) {
-  command.add_option("DRIVE.toml", options.file, file_help)->type_name("");
+void add_drive_options(Command& command, ServoOptions& options, const std::string& sensor_help) {
   command.add_option("--damping", options.damping, "Set the damping ratio: 0, or 1e-15 to 1000")
       ->type_name("NUMBER")
       ->group(servo_group);
@@ -127,6 +123,8 @@ void add_options(Command& command, ServoOptions& options, const char* file_help,
   add_set_option(command, options);
 }
 
+namespace {
+
 namespace fs = std::filesystem;
 
 bool may_be_lost(const fs::path& file) {
@@ -151,19 +149,30 @@ std::string option_name(std::string field) {
 }
 
 void add_servo_options(Command& command, ServoOptions& options) {
-  add_options(command, options,
-              "Read the servo from this file: a data sheet or normalised servo\n"
-              "(docs/reference/data-sheets.md); - is standard input",
-              "Set the shaft with the position sensor: load");
+  command
+      .add_option("DRIVE.toml", options.file,
+                  "Read the servo from this file: a data sheet or normalised servo\n"
+                  "(docs/reference/data-sheets.md); - is standard input")
+      ->type_name("");
+  add_drive_options(command, options, "Set the shaft with the position sensor: load");
 }
 
 void add_servo_or_drive_options(Command& command, ServoOptions& options) {
-  add_options(command, options,
-              "Read the drive from this file: a data sheet or normalised servo\n"
-              "(docs/reference/data-sheets.md), or any drive\n"
-              "(docs/reference/drives.md); - is standard input",
-              "Set the shaft with the position sensor: load, motor or both (position\n"
-              "of the load, speed of the motor)");
+  command
+      .add_option("DRIVE.toml", options.file,
+                  "Read the drive from this file: a data sheet or normalised servo\n"
+                  "(docs/reference/data-sheets.md), or any drive\n"
+                  "(docs/reference/drives.md); - is standard input")
+      ->type_name("");
+  add_drive_options(command, options,
+                    "Set the shaft with the position sensor: load, motor or both (position\n"
+                    "of the load, speed of the motor)");
+}
+
+void Faults::add(Fault fault) {
+  if (std::find(faults_.begin(), faults_.end(), fault) == faults_.end()) {
+    faults_.push_back(std::move(fault));
+  }
 }
 
 void Faults::require_choice(const std::string& field, const std::string& value,

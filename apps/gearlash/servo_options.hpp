@@ -29,6 +29,8 @@ struct ServoOptions {
 /// "--inertia-ratio" for inertia_ratio.
 std::string option_name(std::string field);
 
+/// Without the file.
+void add_drive_options(Command& command, ServoOptions& options, const std::string& sensor_help);
 void add_servo_options(Command& command, ServoOptions& options);
 /// The same for a command that takes any drive.
 void add_servo_or_drive_options(Command& command, ServoOptions& options);
@@ -45,9 +47,10 @@ void add_set_option(Command& command, ServoOptions& options);
 /// Collects the faults of a command line, so that all of them are reported at once.
 class Faults {
  public:
-  void add(Fault fault) { faults_.push_back(std::move(fault)); }
+  /// One fault of several drives is reported once.
+  void add(Fault fault);
   void add(const std::vector<Fault>& faults) {
-    faults_.insert(faults_.end(), faults.begin(), faults.end());
+    for (const Fault& fault : faults) add(fault);
   }
   /// What `read` returns, or `otherwise` when it throws InvalidInput, whose faults are kept.
   template <class Read, class Value>

@@ -483,6 +483,20 @@ Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress,
 
 }  // namespace
 
+bool is_decided(const Answer& answer) {
+  if (answer.search && !answer.search->is_complete) return false;
+  switch (answer.verdict) {
+    case Verdict::hunts:
+    case Verdict::hunts_if_disturbed:
+    case Verdict::hunts_irregularly:
+      return answer.largest_stable() != nullptr || !answer.irregular.empty();
+    case Verdict::undecided:
+      return false;
+    default:
+      return true;
+  }
+}
+
 bool is_at_rest(Verdict verdict) {
   return verdict == Verdict::cannot_hunt || verdict == Verdict::comes_to_rest;
 }

@@ -37,6 +37,9 @@ Analysis analyse_until(const Drive& drive, const Wanted& wanted,
                        const std::function<bool(const drive::AttractorSearch&)>& is_enough,
                        Progress& progress = no_progress(), const Analysis* near = nullptr);
 
+/// Whether the verdict is known. One of hunting is not if the search found no amplitude.
+bool is_decided(const Answer& answer);
+
 /// Whether every motion ends at rest: cannot_hunt or comes_to_rest.
 bool is_at_rest(Verdict verdict);
 

@@ -375,14 +375,6 @@ Json json_response(const Answer& answer) {
           {"settling_time", json_optional(response.settling_time)}};
 }
 
-Json json_loop(const std::optional<LinearLoop>& loop) {
-  if (!loop) return nullptr;
-  return {{"stable", loop->is_stable},
-          {"bandwidth", json_optional(loop->bandwidth)},
-          {"crossover", json_optional(loop->crossover)},
-          {"phase_margin", json_optional(loop->phase_margin)}};
-}
-
 Json json_form(const std::optional<NormalFormNumbers>& form) {
   if (!form) return nullptr;
   return {{"natural_frequency", json_number(form->natural_frequency)},
@@ -399,7 +391,7 @@ Json json_result(const Drive& drive, const FeasibleValues& values, const DriveWi
            has_ratio ? json_number(100.0 * (one.value / values.present - 1.0)) : Json(nullptr)},
           {"performance", json_performance(one.answer)},
           {"normal_form", json_form(one.answer.normal_form)},
-          {"loop", json_loop(one.answer.loop)},
+          {"loop", json_linear_loop(one.answer.loop)},
           {"response", json_response(one.answer)}};
 }
 
@@ -478,7 +470,7 @@ std::string design_json(const DesignReport& report) {
   json["met"] = report.met == Judgement::some ? Json(nullptr) : Json(report.met == Judgement::all);
   json["present"] = {{"performance", json_performance(present)},
                      {"normal_form", json_form(present.normal_form)},
-                     {"loop", json_loop(present.loop)},
+                     {"loop", json_linear_loop(present.loop)},
                      {"response", json_response(present)}};
   json["answers"] = json_list(report.parameters, [&](const DesignedParameter& parameter) {
     return json_parameter(report.drive, parameter);

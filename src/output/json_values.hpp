@@ -42,6 +42,14 @@ inline Json json_bounds(const Bounds& bounds) {
   return {{"from", json_number(bounds.low)}, {"to", json_number(bounds.high)}};
 }
 
+inline Json json_linear_loop(const std::optional<LinearLoop>& loop) {
+  if (!loop) return nullptr;
+  return {{"stable", loop->is_stable},
+          {"bandwidth", json_optional(loop->bandwidth)},
+          {"crossover", json_optional(loop->crossover)},
+          {"phase_margin", json_optional(loop->phase_margin)}};
+}
+
 /// `Form` is NormalFormNumbers or NormalizedServo.
 template <class Form>
 Json json_normal_form(const Form& form, double natural_frequency) {
