@@ -1,9 +1,12 @@
-// gearlash compare: the same drive with its sensor before and after the gap.
+// gearlash compare: drives, or the values of one parameter, side by side.
 #include <algorithm>
+#include <filesystem>
 #include <memory>
-#include <sstream>
+#include <set>
 
+#include "analysis/analyse.hpp"
 #include "command.hpp"
+#include "grid_options.hpp"
 #include "input/units.hpp"
 #include "limit_options.hpp"
 #include "machine_faults.hpp"
@@ -18,81 +21,158 @@ namespace gearlash::cli {
 namespace {
 
 constexpr char compare_examples[] =
-    "  gearlash compare examples/robot-joint.toml --sensor load,motor,both\n"
+    "  gearlash compare examples/robot-joint.toml\n"
     "  gearlash compare examples/elinco-fd162.toml --sensor load,motor --plot time=step.svg\n"
-    "  gearlash compare examples/telescope-axis.toml --step \"1 arcmin\" --format json\n";
+    "  gearlash compare examples/robot-joint.toml examples/dynamixel-joint.toml --brief\n"
+    "  gearlash compare examples/telescope-axis.toml --x gearbox.backlash=\"5 arcmin,10 arcmin\" "
+    "\\\n"
+    "      --step \"1 deg\" --quantities amplitude,static-error,settling-time\n"
+    "  gearlash compare --damping 0.19 --inertia-ratio 2 --friction-ratio 0.1 --backlash 0.3 \\\n"
+    "      --x restitution=0:0.6:4 --format json\n";
 
 struct CompareOptions {
   ServoOptions servo;
-  std::string sensors = "load,motor,both";
+  std::vector<std::string> files;
+  std::string x;
+  std::vector<std::string> quantities;
   std::optional<std::string> step;
   std::optional<std::string> until;
   std::string format = "text";
+  bool brief = false;
   LimitOptions limits;
   std::vector<std::string> plots;
 };
 
-std::vector<SensorPlace> read_sensors(const std::string& text, Faults& faults) {
-  std::vector<SensorPlace> places;
-  std::istringstream stream(text);
-  for (std::string name; std::getline(stream, name, ',');) {
-    const std::optional<SensorPlace> place = sensor_named(name);
-    if (place && std::find(places.begin(), places.end(), *place) == places.end()) {
-      places.push_back(*place);
-    } else {
-      faults.add({"--sensor", shown(text),
-                  "must be a list of load, motor and both, each once, such as load,motor", ""});
-      return {};
+struct CompareTask {
+  std::vector<NamedDrive> drives;
+  ComparisonOptions how;
+  ComparisonReport report;  ///< without the drives
+};
+
+std::vector<Quantity> read_quantities(const std::vector<std::string>& names, Faults& faults) {
+  std::vector<Quantity> chosen;
+  std::vector<std::string> known;
+  for (const QuantityInfo& info : quantities()) known.emplace_back(info.name);
+  for (const std::string& name : names) {
+    const std::optional<Quantity> quantity = find_quantity(name);
+    if (!quantity) faults.require_choice("--quantities", name, known);
+    if (quantity && std::find(chosen.begin(), chosen.end(), *quantity) == chosen.end()) {
+      chosen.push_back(*quantity);
     }
   }
-  if (places.empty()) faults.add({"--sensor", shown(text), "must name load, motor or both", ""});
-  return places;
+  return chosen;
 }
 
-/// As typed, else usual_step().
-drive::Step read_step(const CompareOptions& options, const WrittenDrive& written, Faults& faults) {
-  std::optional<double> size;
-  std::optional<double> until;
+/// The files' stems, or where two are the same the files as typed.
+std::vector<std::string> names_of(const std::vector<std::string>& files) {
+  std::vector<std::string> stems;
+  for (const std::string& file : files) stems.push_back(std::filesystem::path(file).stem());
+  const bool are_distinct = std::set(stems.begin(), stems.end()).size() == stems.size();
+  return are_distinct ? stems : files;
+}
+
+void read_files(const CompareOptions& options, const std::vector<FileUse>& outputs,
+                CompareTask& task, Faults& faults) {
+  if (!options.x.empty()) {
+    faults.add({"--x", shown(options.x), "must be left out: several files are compared", ""});
+  }
+  if (std::count(options.files.begin(), options.files.end(), "-") > 1) {
+    faults.add({"DRIVE.toml", "-", "must be given once: standard input is one drive", ""});
+    return;
+  }
+  const std::vector<std::string> names = names_of(options.files);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    ServoOptions servo = options.servo;
+    servo.file = options.files[i];
+    const std::optional<WrittenDrive> written = resolve_drive(servo, outputs, faults);
+    if (!written) continue;
+    task.drives.push_back({names[i], written->drive});
+    task.report.angles.push_back(written->angle);
+  }
+}
+
+/// --x; without it the places of the sensor.
+void read_values(const CompareOptions& options, const std::vector<FileUse>& outputs,
+                 CompareTask& task, Faults& faults) {
+  ServoOptions servo = options.servo;
+  if (!options.files.empty()) servo.file = options.files.front();
+  AxisText text{"--sensor", "sensor.position", servo.sensor.value_or("load,motor,both")};
+  if (options.x.empty()) servo.sensor.reset();
+  if (!options.x.empty()) {
+    text = faults.collect([&] { return split_axis("--x", options.x); }, AxisText{});
+  }
+  const bool is_read = !text.name.empty();
+  const std::vector<AxisText> texts(is_read ? 1 : 0, text);
+  const std::optional<WrittenDrive> written =
+      read_fixed_drive(servo, texts, is_read, outputs, faults);
+  if (!written || !is_read) return;
+  const Drive drive = drive_of_axes(written->drive, texts);
+  Axis axis = collect_axis([&](auto* out) { return read_axis(text, drive, out); }, faults);
+  if (axis.values.size() > most_compared_drives) {
+    faults.add({text.field, std::to_string(axis.values.size()) + " values",
+                "must be at most " + std::to_string(most_compared_drives) +
+                    "; gearlash chart has room for more",
+                ""});
+  }
+  faults.require_none();
+  task.drives = drives_along(axis, drive, written->angle);
+  task.report.angles.assign(task.drives.size(), written->angle);
+  task.report.axis = std::move(axis);
+}
+
+double read_step(const std::string& text) {
+  const double step = read_angle("--step", text).si;
+  if (step == 0.0) refuse("--step", text, "must be an angle other than 0");
+  return step;
+}
+
+CompareTask read_compare_task(const CompareOptions& options, const std::vector<Plot>& plots,
+                              Faults& faults) {
+  CompareTask task;
+  faults.require_choice("--format", options.format, {"text", "json"});
   if (options.step) {
-    size = faults.collect([&] { return read_angle("--step", *options.step).si; }, 1.0);
+    task.how.step = faults.collect([&] { return read_step(*options.step); }, 1.0);
   }
-  if (options.until) {
-    until =
-        faults.collect([&] { return read_si("--until", *options.until, dimensions::time); }, 1.0);
+  if (options.until) task.how.until = read_time("--until", *options.until, faults);
+  if (!options.quantities.empty()) {
+    task.report.quantities = read_quantities(options.quantities, faults);
   }
-  return faults.collect(
-      [&] {
-        return step_of_comparison(written.drive, size, until, {"--step", "--until"});
-      },
-      drive::Step{});
+  if (options.files.size() > 1) {
+    read_files(options, files_of(plots), task, faults);
+  } else {
+    read_values(options, files_of(plots), task, faults);
+  }
+  return task;
+}
+
+std::string printed(const ComparisonReport& report, const CompareOptions& options) {
+  if (options.format == "json") return comparison_json(report);
+  return options.brief ? comparison_headlines(report) : comparison_text(report);
 }
 
 ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
   Faults faults;
-  faults.require_choice("--format", options.format, {"text", "json"});
   const std::vector<Plot> plots = read_plots(options.plots, {"time"}, faults);
-  const std::vector<SensorPlace> places = read_sensors(options.sensors, faults);
-  const std::optional<WrittenDrive> written = resolve_drive(options.servo, files_of(plots), faults);
-  const drive::Step step = written ? read_step(options, *written, faults) : drive::Step{};
   const Limits limits = read_limits(options.limits, faults);
+  CompareTask task = read_compare_task(options, plots, faults);
   faults.require_none();
 
+  task.report.provenance = provenance;
+  task.how.motion_bytes = bytes_of_motion(limits, task.drives.size());
   LimitedWork work(limits);
-  ComparisonReport report;
   {
-    TerminalProgress progress(work, "Comparing");
-    report = compare_sensors(written->drive, places, step, {written->angle, provenance}, progress);
+    TerminalProgress progress(work, "Comparing", task.drives.size(), "drives");
+    task.report.drives = compare(task.drives, task.how, progress);
   }
   Extras extras;
-  extras.print(options.format == "json" ? comparison_json(report) : comparison_text(report));
+  extras.print(printed(task.report, options));
   const bool decided =
-      std::none_of(report.cases.begin(), report.cases.end(), [](const SensorCase& one) {
-        return one.report.answer.verdict == Verdict::undecided || !one.response.is_whole;
-      });
+      std::all_of(task.report.drives.begin(), task.report.drives.end(),
+                  [](const ComparedDrive& one) { return one.answer && is_decided(*one.answer); });
   const ExitStatus status = end_work(work, decided ? ExitStatus::done : ExitStatus::undecided,
                                      "searches are not complete, or not begun");
   for (const Plot& plot : plots) {
-    extras.make([&] { write_file(plot.file, draw_comparison(report, plot.format)); });
+    extras.make([&] { write_file(plot.file, draw_comparison(task.report, plot.format)); });
   }
   return extras.status(status);
 }
@@ -101,32 +181,45 @@ ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
 
 void add_compare_command(Command& app, Action& action) {
   const auto options = std::make_shared<CompareOptions>();
-  Command* command = app.add_subcommand(
-      "compare", "Compare a drive with its sensor before and after the gap, side by side");
+  Command* command =
+      app.add_subcommand("compare", "Compare drives, or the values of one parameter, side by side");
   command
-      ->add_option("DRIVE.toml", options->servo.file,
-                   "Read the drive from this file: a data sheet or normalised servo\n"
-                   "(docs/reference/data-sheets.md), or any drive\n"
-                   "(docs/reference/drives.md)")
-      ->type_name("")
-      ->required();
-  add_set_option(*command, options->servo);
+      ->add_option("DRIVE.toml", options->files,
+                   "Read drives from these files: data sheets or normalised servos\n"
+                   "(docs/reference/data-sheets.md), or any drives\n"
+                   "(docs/reference/drives.md); - is standard input")
+      ->type_name("");
   command
-      ->add_option("--sensor", options->sensors,
-                   "Compare these places of the sensor: load, motor, both (position of\n"
-                   "the load, speed of the motor); default load,motor,both")
-      ->type_name("LIST");
+      ->add_option("--x", options->x,
+                   "Compare one drive with these values: PATH=A,B,C, PATH=FROM:TO:COUNT or\n"
+                   "PATH=FROM:TO:COUNT:log, with units; PATH is any number or choice of the\n"
+                   "drive, or damping, inertia-ratio, … of the normal form; default\n"
+                   "sensor.position=load,motor,both")
+      ->type_name("AXIS");
+  add_drive_options(*command, options->servo,
+                    "Compare one drive with these places of the position sensor, as\n"
+                    "--x sensor.position=LIST does: load, motor and both (position of the\n"
+                    "load, speed of the motor); of several files, or with --x, one place");
+  command
+      ->add_option("--quantities", options->quantities,
+                   "Show these quantities, separated by commas: amplitude, static-error, …\n"
+                   "(docs/reference/command-line.md)")
+      ->type_name("NAMES")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command
       ->add_option("--step", options->step,
                    "Set the step of the reference, in rad or with a unit; default ten\n"
-                   "times the backlash, or 1 deg without one")
+                   "times the backlash of the first drive, or 1 deg without one")
       ->type_name("ANGLE");
   command
       ->add_option("--until", options->until,
-                   "Set the end of the step response; default twenty periods of the loop")
+                   "Set the end of the step responses; default twenty periods of each loop,\n"
+                   "or more where the load needs longer to rise")
       ->type_name("TIME");
   command->add_option("--format", options->format, "Choose the format: text (default) or json")
       ->type_name("FORMAT");
+  command->add_flag("--brief", options->brief, "Print the headlines alone");
   add_plot_option(*command, options->plots, "Draw time=FILE, the step responses;");
   add_limit_options(*command, options->limits);
   command->footer(help_footer(compare_examples));

@@ -4,6 +4,7 @@
 #include "gearlash/analyse.hpp"
 #include "gearlash/answer.hpp"
 #include "gearlash/bounds.hpp"
+#include "gearlash/comparison.hpp"
 #include "gearlash/controller.hpp"
 #include "gearlash/design.hpp"
 #include "gearlash/drive.hpp"

@@ -7,6 +7,8 @@
 #include "analysis/describing/describing_function.hpp"
 #include "arrays.hpp"
 #include "gearlash/analyse.hpp"
+#include "gearlash/comparison.hpp"
+#include "gearlash/grid.hpp"
 #include "gearlash/input.hpp"
 #include "gearlash/output.hpp"
 #include "gearlash/sensitivity.hpp"
@@ -29,12 +31,17 @@ py::object analysed(py::handle drive, py::handle wanted, const py::object& progr
 
 Answer answer_from(py::handle answer) { return from_python<Answer>(answer, "answer"); }
 
-py::object derivatives_of(py::handle drive, const std::vector<std::string>& names,
-                          const std::vector<std::string>& paths, const py::object& progress) {
+std::vector<Quantity> quantities_of(const std::vector<std::string>& names) {
   std::vector<Quantity> quantities;
   for (const std::string& name : names) {
     quantities.push_back(from_python<Quantity>(py::str(name), "quantities"));
   }
+  return quantities;
+}
+
+py::object derivatives_of(py::handle drive, const std::vector<std::string>& names,
+                          const std::vector<std::string>& paths, const py::object& progress) {
+  const std::vector<Quantity> quantities = quantities_of(names);
   const std::vector<std::string_view> views(paths.begin(), paths.end());
   const Drive of = drive_of(drive);
   return to_python(interruptible(
@@ -57,19 +64,24 @@ py::tuple described(py::handle drive, const py::object& progress) {
   return py::make_tuple(written.json, written.text);
 }
 
-py::tuple compared(py::handle drive, const std::vector<std::string>& sensors,
+/// Without values of an axis: drives with names.
+py::tuple compared(const std::vector<std::pair<std::string, py::object>>& named,
+                   const py::object& axis, const std::vector<std::string>& quantities,
                    std::optional<double> step, std::optional<double> until,
                    const py::object& progress) {
-  const Drive of = drive_of(drive);
-  std::vector<SensorPlace> places;
-  for (const std::string& name : sensors) {
-    const std::optional<SensorPlace> place = sensor_named(name);
-    if (!place) throw InvalidInput({{"sensors", name, "must be load, motor or both", ""}});
-    places.push_back(*place);
+  ComparisonReport report;
+  std::vector<NamedDrive> drives;
+  for (const auto& [name, drive] : named) drives.push_back({name, drive_of(drive)});
+  if (!axis.is_none()) {
+    report.axis = from_python<Axis>(axis, "axis");
+    const Drive base = drives.front().drive;
+    require_none(faults(Grid{.drive = base, .axes = {*report.axis}}, {report.axis->path}));
+    drives = drives_along(*report.axis, base, {});
   }
+  if (!quantities.empty()) report.quantities = quantities_of(quantities);
+  report.angles.resize(drives.size());
   const Written written = interruptible(progress, [&](Progress& reports) {
-    const ComparisonReport report =
-        compare_sensors(of, places, step_of_comparison(of, step, until), {}, reports);
+    report.drives = compare(drives, {.step = step, .until = until}, reports);
     return Written{comparison_json(report), comparison_text(report)};
   });
   return py::make_tuple(written.json, written.text);

@@ -11,7 +11,7 @@ All numbers are in SI. Functions that take long release the interpreter's lock, 
 """
 
 from gearlash import _core, distributed, interop, thesis
-from gearlash._analysis import Report, analyse, compare, derivatives, describe, quantities
+from gearlash._analysis import Report, analyse, derivatives, describe, quantities
 from gearlash._design import (design, margins, sensitivity_indices, series, target, tolerance, tune,
                               widest_backlash)
 from gearlash._drive import Drive, Section
@@ -19,7 +19,7 @@ from gearlash._errors import InvalidInput
 from gearlash._motion import Motion, Samples, simulate
 from gearlash._records import *  # noqa: F403
 from gearlash._records import __all__ as _records_all
-from gearlash._sweep import Table, axis, linear, logarithmic, sweep, verdict_words
+from gearlash._sweep import Table, axis, compare, linear, logarithmic, sweep, verdict_words
 
 __version__: str = _core.__version__
 

@@ -163,37 +163,6 @@ def describe(drive: Drive, *, progress: Progress = None) -> Report:
     return Report(*_core.describe(drive, progress))
 
 
-def compare(drive: Drive, sensors: Sequence[str] = ("load", "motor", "both"), *,
-            step: float | None = None, until: float | None = None,
-            progress: Progress = None) -> Report:
-    """Compare a drive with its sensor before and after the gap.
-
-    Parameters
-    ----------
-    drive : Drive
-    sensors : sequence of str
-        Places of the sensor: load, motor, both (position of the load, speed of the motor).
-    step : float, optional
-        rad, of the reference; default ten times the backlash, or 1 deg without one.
-    until : float, optional
-        s, the end of the step response; default twenty periods of the loop.
-    progress : callable, optional
-        As of :func:`analyse`.
-
-    Returns
-    -------
-    Report
-        The JSON of ``gearlash compare`` by its keys, in SI.
-
-    Raises
-    ------
-    InvalidInput
-        For a faulty drive, a step of 0 and a time that is not positive.
-    """
-    return Report(*_core.compare(drive, texts("sensors", sensors), optional_number("step", step),
-                                 optional_number("until", until), progress))
-
-
 def quantities() -> tuple[QuantityInfo, ...]:
     """List what can be asked of an answer: name, unit and meaning.
 

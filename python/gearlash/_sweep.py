@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearlash import _core
-from gearlash._analysis import Progress
-from gearlash._arguments import listed, mapping, number, text, texts, truth, whole
+from gearlash._analysis import Progress, Report
+from gearlash._arguments import listed, mapping, number, optional_number, text, texts, truth, whole
 from gearlash._drive import Drive
 from gearlash._motion import _numbers
 from gearlash._records import Axis
@@ -207,6 +207,62 @@ def sweep(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis] | None = N
         return distributed.sweep(varied, grid, asked, client, proved=proved, progress=progress)
     verdicts, columns = _core.evaluate_grid(varied, grid, asked, truth("proved", proved), progress)
     return dataset(varied, grid, verdicts, columns, proved=proved)
+
+
+def compare(drives: Drive | Mapping[str, Drive],
+            axes: Mapping[str, AxisLike] | Sequence[Axis] | None = None,
+            quantities: Sequence[str] = (), *, step: float | None = None,
+            until: float | None = None, progress: Progress = None) -> Report:
+    """Put drives, or the values of one parameter, side by side.
+
+    Parameters
+    ----------
+    drives : Drive, or mapping of name to Drive
+    axes : mapping of path to values, or sequence of Axis, optional
+        The values of one parameter of one drive, as :func:`sweep` takes them; default the sensor on
+        the load, on the motor and on both (position of the load, speed of the motor).
+    quantities : sequence of str
+        Names of :func:`gearlash.quantities`; default those that ``gearlash compare`` shows.
+    step : float, optional
+        rad, of the reference; default ten times the backlash of the first drive, or 1 deg without.
+    until : float, optional
+        s, the end of the step responses; default twenty periods of each loop, or more where the load
+        needs longer to rise.
+    progress : callable, optional
+        As of :func:`gearlash.analyse`.
+
+    Returns
+    -------
+    Report
+        The JSON of ``gearlash compare`` by its keys, in SI.
+
+    Raises
+    ------
+    InvalidInput
+        For a faulty drive, values that are not permitted, a step of 0 and a time that is not
+        positive.
+
+    Examples
+    --------
+    >>> import gearlash
+    >>> servo = gearlash.Drive.normal_form(0.19, 2, 0.1, 0.3)
+    >>> report = gearlash.compare(servo, {"servo.damping": [0.19, 0.9]}, ["amplitude"])
+    >>> [case["limit_cycle"]["verdict"] for case in report["cases"]]
+    ['hunts', 'cannot hunt']
+    """
+    one = None
+    if isinstance(drives, Mapping):
+        if axes is not None:
+            raise TypeError("axes need one drive")
+        named = list(mapping("drives", drives).items())
+    else:
+        varied, grid = grid_of(drives, {"sensor.position": "load,motor,both"} if axes is None else axes)
+        if len(grid) != 1:
+            raise ValueError(f"axes must be one, not {len(grid)}")
+        named, one = [("", varied)], grid[0]
+    return Report(*_core.compare(named, one, texts("quantities", quantities),
+                                 optional_number("step", step), optional_number("until", until),
+                                 progress))
 
 
 def _sweep_arrays(drive: Drive, arrays: Mapping[str, ArrayLike], quantities: list[str],

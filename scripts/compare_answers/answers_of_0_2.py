@@ -320,11 +320,11 @@ def events_of_table(rows):
 
 
 def step_response(source):
-    return chosen(source, "step rise_time overshoot settling_time final_error ripple")
+    return source and chosen(source, "step rise_time overshoot settling_time final_error ripple")
 
 
 def compare(answer):
-    return {"places": {one["sensor"]: {"encoder_step": one["encoder_step"],
+    return {"places": {one.get("sensor") or one["name"]: {"encoder_step": one["encoder_step"],
                                        "response": step_response(one["step_response"]),
                                        "in_the_end": in_the_end(one["limit_cycle"])}
                        for one in answer["cases"]}}

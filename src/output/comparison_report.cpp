@@ -4,203 +4,290 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <numbers>
 
-#include "analysis/analyse.hpp"
-#include "analysis/repetition.hpp"
-#include "base/progress_part.hpp"
-#include "base/range_check.hpp"
-#include "input/drive_file.hpp"
-#include "model/linear_drive.hpp"
+#include "model/reduced_drive.hpp"
+#include "output/answer_report.hpp"
 #include "output/columns.hpp"
 #include "output/drive_text.hpp"
 #include "output/json_values.hpp"
+#include "output/parameter_text.hpp"
 
 namespace gearlash {
 namespace {
 
-const AnswerReport& first_of(const ComparisonReport& report) { return report.cases.front().report; }
+constexpr char nothing[] = "–";
 
-std::string angle(const ComparisonReport& report, double radians) {
-  return angle_text(radians, first_of(report).angle, usual_digits);
+AnswerReport answer_report_of(const ComparisonReport& report, std::size_t i) {
+  const ComparedDrive& one = report.drives[i];
+  return report_of(one.drive, *one.answer, report.angles[i], report.provenance);
 }
 
-std::string time(const ComparisonReport& report, const std::optional<double>& seconds) {
-  if (!seconds) return "–";
-  return time_text(*seconds, first_of(report).is_normalized, usual_digits);
+/// The unit of a column of the table, and what it is in SI.
+struct ColumnUnit {
+  std::string name{};
+  double size = 1.0;
+};
+
+/// Times are in 1/ω_n where no drive has another time.
+ColumnUnit unit_shown(const ComparisonReport& report, Quantity quantity) {
+  const std::string unit(info_of(quantity).unit);
+  const AngleUnit& angle = report.angles.front();
+  if (quantity == Quantity::phase_margin) return {"deg", std::numbers::pi / 180.0};
+  if (unit == "rad") return {angle.name, angle.radians};
+  if (quantity == Quantity::overshoot) return {"%", 0.01};
+  const bool is_free = is_normalized(report);
+  if (is_free && unit == "s") return {"1/ω_n", 1.0};
+  if (is_free && unit == "Hz") return {"ω_n", 0.5 / std::numbers::pi};
+  if (is_free && unit == "rad/s") return {"rad ω_n", 1.0};
+  return {unit == "1" ? "" : unit, 1.0};
 }
 
-// ---- cells --------------------------------------------------------------------------------------
+// ---- the table ----------------------------------------------------------------------------------
 
-std::string amplitude_text(const ComparisonReport& report, const SensorCase& one) {
-  const Answer& answer = one.report.answer;
-  if (const Cycle* cycle = answer.largest_stable()) {
-    if (is_of_motor_alone(*cycle)) return "motor ±" + angle(report, cycle->motor_amplitude);
-    return "±" + angle(report, cycle->amplitude);
-  }
-  if (answer.irregular.empty()) return "–";
-  const IrregularMotion& motion = answer.irregular.front();
-  if (motion.is_motor_alone && motion.motor_amplitude) {
-    return "motor ±" + angle(report, *motion.motor_amplitude);
-  }
-  return (repeats(motion) ? "±" : "up to ±") + angle(report, motion.amplitude);
-}
-
-std::string pace_text(const ComparisonReport& report, const SensorCase& one) {
-  const Answer& answer = one.report.answer;
-  std::optional<double> period;
-  if (const Cycle* cycle = answer.largest_stable()) {
-    period = cycle->period;
-  } else if (!answer.irregular.empty()) {
-    period = answer.irregular.front().mean_period;
-  }
-  if (!period) return "–";
-  if (first_of(report).is_normalized) return "period " + time(report, *period);
-  return significant(1.0 / *period, usual_digits) + " Hz";
-}
-
-std::string static_error(const ComparisonReport& report, const SensorCase& one) {
-  const Answer& answer = one.report.answer;
-  const bool is_known = answer.verdict == Verdict::cannot_hunt ||
-                        (answer.search && answer.search->count("undecided") == 0);
-  if (!answer.rest) return is_known ? "never at rest" : "not known";
-  const double low = answer.rest->error.low;
-  const double high = answer.rest->error.high;
-  const double size = std::max(std::abs(low), std::abs(high));
-  // Rest at a single place prints as one number.
-  if (high - low <= 1e-6 * size) return angle(report, low);
-  const AngleUnit& unit = first_of(report).angle;
-  return significant(unit.from_radians(low), usual_digits) + " … " + angle(report, high);
-}
-
-double encoder_step(const SensorCase& one) { return reduce(one.report.drive).sensing.resolution; }
-
-std::string resolution(const ComparisonReport& report, const SensorCase& one) {
-  const double step = encoder_step(one);
-  return step > 0.0 ? angle(report, step) : "–";
-}
+using TableRow = std::vector<std::string>;
 
 template <class Cell>
-std::vector<std::string> row(const ComparisonReport& report, const std::string& name,
-                             const Cell& cell) {
-  std::vector<std::string> cells = {name};
-  for (const SensorCase& one : report.cases) cells.push_back(cell(one));
-  return cells;
+TableRow row_of(const ComparisonReport& report, std::string name, const Cell& cell) {
+  TableRow row = {std::move(name)};
+  for (const ComparedDrive& one : report.drives) row.push_back(one.answer ? cell(one) : nothing);
+  return row;
 }
 
-std::string meaning(const ComparisonReport& report) {
+std::string name_with_unit(std::string name, const std::string& unit) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return unit.empty() ? name : name + " (" + unit + ")";
+}
+
+TableRow row_of(const ComparisonReport& report, Quantity quantity) {
+  const ColumnUnit unit = unit_shown(report, quantity);
+  const bool is_word = info_of(quantity).kind == QuantityKind::choice;
+  return row_of(report, name_with_unit(std::string(name_of(quantity)), unit.name),
+                [&](const ComparedDrive& one) {
+                  const std::optional<double> value = one.answer->value(quantity);
+                  if (is_word) return std::string(name_of(one.answer->verdict));
+                  return value ? significant(*value / unit.size, usual_digits) : nothing;
+                });
+}
+
+std::string stability_text(const ComparedDrive& one) {
+  if (!one.answer->loop) return nothing;
+  return one.answer->loop->is_stable ? "stable" : "not stable";
+}
+
+std::vector<TableRow> rows_of(const ComparisonReport& report) {
+  const AngleUnit& angle = report.angles.front();
+  std::vector<TableRow> rows = {{report.axis ? report.axis->path : "drive"}};
+  for (const ComparedDrive& one : report.drives) rows.front().push_back(one.name);
+  rows.push_back(row_of(report, "certainty", [](const ComparedDrive& one) {
+    return std::string(name_of(one.answer->certainty));
+  }));
+  rows.push_back(row_of(report, "loop without the gap", stability_text));
+  if (!is_normalized(report)) {
+    rows.push_back(row_of(report, "loop stiffness (N m/rad)", [](const ComparedDrive& one) {
+      return one.stiffness ? significant(*one.stiffness, usual_digits) : nothing;
+    }));
+  }
+  const auto has_encoder = [](const ComparedDrive& one) { return one.encoder_step > 0.0; };
+  if (std::any_of(report.drives.begin(), report.drives.end(), has_encoder)) {
+    rows.push_back(row_of(report, name_with_unit("encoder step at the load", angle.name),
+                          [&](const ComparedDrive& one) {
+                            return significant(angle.from_radians(one.encoder_step), usual_digits);
+                          }));
+  }
+  for (const Quantity quantity : report.quantities) rows.push_back(row_of(report, quantity));
+  return rows;
+}
+
+// ---- what else to know --------------------------------------------------------------------------
+
+/// "load, motor": those of which it holds.
+template <class Holds>
+std::string names_where(const ComparisonReport& report, const Holds& holds) {
+  std::string names;
+  for (const ComparedDrive& one : report.drives) {
+    if (one.answer && holds(one)) names += (names.empty() ? "" : ", ") + one.name;
+  }
+  return names;
+}
+
+std::string unstable_text(const ComparisonReport& report) {
+  const std::string names = names_where(report, [](const ComparedDrive& one) {
+    return one.answer->loop && !one.answer->loop->is_stable;
+  });
+  if (names.empty()) return "";
+  return "Not stable even without the gap: " + names +
+         ". What happens there is not due to backlash alone, and a step response is left out. ";
+}
+
+/// Where the same controller with the sensor elsewhere is another one at the load: a firmware's
+/// registers count turns of the shaft that is sensed.
+std::string rescaled_text(const ComparisonReport& report) {
+  const ComparedDrive& first = report.drives.front();
+  std::string list;
+  for (const ComparedDrive& one : report.drives) {
+    const bool is_moved = one.drive.sensor.position != first.drive.sensor.position &&
+                          one.drive.controller == first.drive.controller;
+    if (!is_moved || !one.stiffness || !first.stiffness) continue;
+    const double factor = *one.stiffness / *first.stiffness;
+    constexpr double rounding = 1e-9;
+    if (std::abs(factor - 1.0) <= rounding) continue;
+    list += (list.empty() ? "" : ", ") + one.name + " ×" + significant(factor, usual_digits);
+  }
+  if (list.empty()) return "";
+  return "The controller's numbers count angles of the shaft that is sensed. So moving the sensor "
+         "changes the loop stiffness from that with " +
+         first.name + ": " + list + ". ";
+}
+
+std::string step_text(const ComparisonReport& report) {
+  const auto is_of_step = [](Quantity one) { return info_of(one).scope == QuantityScope::step; };
+  const std::optional<double> step = step_of(report);
+  const bool is_shown = std::any_of(report.quantities.begin(), report.quantities.end(), is_of_step);
+  if (!step || !is_shown) return "";
+  const std::string names = names_where(report, [](const ComparedDrive& one) {
+    return one.answer->step && !one.answer->step->is_whole;
+  });
+  return "The step of the reference is " + angle_text(*step, report.angles.front(), usual_digits) +
+         (names.empty() ? "." : "; it could not be followed to its end: " + names + ".");
+}
+
+/// Where the places differ.
+std::string sensor_text(const ComparisonReport& report) {
+  const SensorPlace first = report.drives.front().drive.sensor.position;
+  bool differ = false;
+  bool has_motor = false;
+  for (const ComparedDrive& one : report.drives) {
+    differ = differ || one.drive.sensor.position != first;
+    has_motor = has_motor || one.drive.sensor.position == SensorPlace::motor;
+  }
+  if (!differ || !has_motor) return "";
+  return "With the sensor on the motor the loop does not see where the load is in the gap. ";
+}
+
+/// Blocks of as many columns as fit, each with the first one.
+std::string in_blocks(const std::vector<TableRow>& rows) {
+  constexpr std::size_t widest = 92;
+  const auto width = [&](std::size_t column) {
+    std::size_t most = 0;
+    for (const TableRow& row : rows) most = std::max(most, width_in_columns(row[column]));
+    return most + 2;
+  };
   std::string text;
-  for (const SensorCase& one : report.cases) {
-    if (one.place == SensorPlace::motor) {
-      text +=
-          "With the sensor on the motor, the gap is outside the loop. The loop does not see where "
-          "the load is in the gap. ";
-    } else if (one.place == SensorPlace::both) {
-      text += "With both, the position is the load's and the speed is the motor's";
-      text += linear_drive(reduce(one.report.drive)).uses_speed()
-                  ? ". "
-                  : ", which this controller does not use. ";
-    }
+  for (std::size_t first = 1; first < rows.front().size();) {
+    std::vector<TableRow> block;
+    for (const TableRow& row : rows) block.push_back({row.front()});
+    std::size_t taken = width(0);
+    do {
+      for (std::size_t i = 0; i < rows.size(); ++i) block[i].push_back(rows[i][first]);
+      taken += width(first++);
+    } while (first < rows.front().size() && taken + width(first) <= widest);
+    text += "\n" + table_text(block);
   }
-  for (const SensorCase& one : report.cases) {
-    if (one.response.is_whole) continue;
-    text += fmt::format("With the sensor on {}, the step response could be followed only for {}. ",
-                        name_of(one.place), time(report, one.response.until));
+  return text;
+}
+
+// ---- JSON ---------------------------------------------------------------------------------------
+
+Json json_step(const std::optional<StepResponse>& response) {
+  if (!response) return nullptr;
+  return {{"step", json_number(response->step)},
+          {"watched", json_number(response->until)},
+          {"rise_time", json_optional(response->rise_time)},
+          {"overshoot", json_optional(response->overshoot)},
+          {"settling_time", json_optional(response->settling_time)},
+          {"band", json_number(response->band)},
+          {"final_error", json_number(response->final_error)},
+          {"ripple", json_number(response->ripple)}};
+}
+
+Json json_values_of(const ComparedDrive& one, const std::vector<Quantity>& quantities) {
+  Json values = Json::object();
+  for (const Quantity quantity : quantities) {
+    const bool is_word = info_of(quantity).kind == QuantityKind::choice;
+    values[std::string(name_of(quantity))] =
+        is_word ? Json(name_of(one.answer->verdict)) : json_optional(one.answer->value(quantity));
   }
-  return text +
-         "A search from several starts found the rest and the cycles (limit-cycle reports each). "
-         "Step responses are exact motions from rest.";
+  return values;
+}
+
+Json json_axis_of(const ComparisonReport& report) {
+  if (!report.axis) return nullptr;
+  const std::string unit = unit_of(*report.axis, report.drives.front().drive);
+  return {{"path", report.axis->path}, {"unit", unit.empty() ? Json(nullptr) : Json(unit)}};
+}
+
+Json json_case(const ComparisonReport& report, std::size_t i) {
+  const ComparedDrive& one = report.drives[i];
+  Json json = {{"name", one.name},
+               {"value", report.axis ? json_value(*report.axis, one.drive, report.axis->values[i])
+                                     : Json(nullptr)},
+               {"encoder_step", json_number(one.encoder_step)},
+               {"stiffness", json_optional(one.stiffness)}};
+  json["loop"] = one.answer ? json_linear_loop(one.answer->loop) : Json(nullptr);
+  json["step_response"] = one.answer ? json_step(one.answer->step) : Json(nullptr);
+  json["values"] = one.answer ? json_values_of(one, report.quantities) : Json(nullptr);
+  json["limit_cycle"] =
+      one.answer ? Json::parse(answer_json(answer_report_of(report, i))) : Json(nullptr);
+  return json;
 }
 
 }  // namespace
 
-ComparisonReport compare_sensors(const Drive& drive, const std::vector<SensorPlace>& places,
-                                 const drive::Step& step, const ReportStyle& style,
-                                 Progress& progress) {
-  if (places.empty()) {
-    require_none({{"sensors", "", "must name load, motor or both", ""}});
-  }
-  ComparisonReport report{.cases = {}, .provenance = style.provenance};
-  for (const SensorPlace place : places) {
-    ProgressPart part(progress, report.cases.size(), places.size());
-    Drive placed = drive;
-    placed.sensor.position = place;
-    placed.sensor.speed.reset();
-    const drive::ReducedDrive reduced = reduce(placed);
-    const Answer answer = answer_of(drive::find_attractors(reduced, {}, part), reduced);
-    ProgressPart at_end(part, 1.0, 1.0);
-    const StepResponse response = drive::step_response(reduced, step.size, step.until, at_end);
-    report.cases.push_back({.place = place,
-                            .report = report_of(placed, answer, style.angle, style.provenance),
-                            .response = response});
-  }
-  return report;
+std::vector<Quantity> usual_quantities_compared() {
+  return {Quantity::amplitude,    Quantity::motor_amplitude, Quantity::frequency,
+          Quantity::static_error, Quantity::ceiling,         Quantity::bandwidth,
+          Quantity::phase_margin, Quantity::rise_time,       Quantity::overshoot,
+          Quantity::settling_time};
 }
 
-drive::Step step_of_comparison(const Drive& drive, std::optional<double> size,
-                               std::optional<double> until, const StepFields& fields) {
-  drive::Step step = drive::usual_step(reduce(drive));
-  step.size = size.value_or(step.size);
-  step.until = until.value_or(step.until);
-  RangeCheck check;
-  if (step.size == 0.0) check.refuse(fields.size, "0", "must be an angle other than 0");
-  if (!(step.until > 0.0)) check.refuse(fields.until, exact_text(step.until), "must be positive");
-  require_none(check.faults());
-  return step;
+bool is_normalized(const ComparisonReport& report) {
+  return std::all_of(report.drives.begin(), report.drives.end(),
+                     [](const ComparedDrive& one) { return is_normalized(one.drive); });
+}
+
+std::optional<double> step_of(const ComparisonReport& report) {
+  for (const ComparedDrive& one : report.drives) {
+    if (one.answer && one.answer->step) return one.answer->step->step;
+  }
+  return std::nullopt;
+}
+
+std::vector<NamedDrive> drives_along(const Axis& axis, const Drive& drive, const AngleUnit& angle) {
+  std::vector<NamedDrive> drives;
+  for (const double value : axis.values) {
+    NamedDrive one{.drive = drive};
+    set_on(axis, one.drive, value);
+    one.name = ParameterText(one.drive, axis.path, angle).of(value);
+    drives.push_back(std::move(one));
+  }
+  return drives;
+}
+
+std::string comparison_headlines(const ComparisonReport& report) {
+  std::vector<TableRow> rows;
+  for (std::size_t i = 0; i < report.drives.size(); ++i) {
+    const bool is_known = report.drives[i].answer.has_value();
+    rows.push_back(
+        {report.drives[i].name, is_known ? headline(answer_report_of(report, i)) : "not reached"});
+  }
+  return table_text(rows);
 }
 
 std::string comparison_text(const ComparisonReport& report) {
-  const auto response = [&](const auto& number) {
-    return [&report, number](const SensorCase& one) { return time(report, number(one.response)); };
-  };
-  const StepResponse& first = report.cases.front().response;
-  std::vector<std::vector<std::string>> rows = {
-      row(report, "sensor on",
-          [](const SensorCase& one) { return std::string(name_of(one.place)); }),
-      row(report, "encoder step at the load",
-          [&](const SensorCase& one) { return resolution(report, one); }),
-      row(report, "hunting",
-          [](const SensorCase& one) { return std::string(name_of(one.report.answer.verdict)); }),
-      row(report, "  amplitude, load",
-          [&](const SensorCase& one) { return amplitude_text(report, one); }),
-      row(report, "  frequency", [&](const SensorCase& one) { return pace_text(report, one); }),
-      row(report, "error at rest, load",
-          [&](const SensorCase& one) { return static_error(report, one); }),
-      row(report, "step of " + angle(report, first.step),
-          [](const SensorCase&) { return std::string(); }),
-      row(report, "  rise, 10 % to 90 %",
-          response([](const StepResponse& one) { return one.rise_time; })),
-      row(report, "  overshoot",
-          [](const SensorCase& one) {
-            const std::optional<double>& overshoot = one.response.overshoot;
-            return overshoot ? fmt::format("{:.1f} %", 100.0 * *overshoot) : "–";
-          }),
-      row(report, "  settled to 5 %",
-          response([](const StepResponse& one) { return one.settling_time; })),
-      row(report, "  error at the end",
-          [&](const SensorCase& one) { return angle(report, one.response.final_error); }),
-      row(report, "  amplitude at the end",
-          [&](const SensorCase& one) { return "±" + angle(report, one.response.ripple); })};
-  return table_text(rows) + "\n" + wrapped(meaning(report));
+  const std::string remarks =
+      unstable_text(report) + rescaled_text(report) + sensor_text(report) + step_text(report);
+  return comparison_headlines(report) + in_blocks(rows_of(report)) +
+         (remarks.empty() ? "" : "\n" + wrapped(remarks));
 }
 
 std::string comparison_json(const ComparisonReport& report) {
   Json json = json_head("compare", report.provenance);
-  json["cases"] = json_list(report.cases, [](const SensorCase& one) {
-    const StepResponse& response = one.response;
-    return Json{{"sensor", name_of(one.place)},
-                {"encoder_step", json_number(encoder_step(one))},
-                {"step_response",
-                 {{"step", json_number(response.step)},
-                  {"watched", json_number(response.until)},
-                  {"rise_time", json_optional(response.rise_time)},
-                  {"overshoot", json_optional(response.overshoot)},
-                  {"settling_time", json_optional(response.settling_time)},
-                  {"band", json_number(response.band)},
-                  {"final_error", json_number(response.final_error)},
-                  {"ripple", json_number(response.ripple)}}},
-                {"limit_cycle", Json::parse(answer_json(one.report))}};
-  });
+  json["parameter"] = json_axis_of(report);
+  json["cases"] = Json::array();
+  for (std::size_t i = 0; i < report.drives.size(); ++i) {
+    json["cases"].push_back(json_case(report, i));
+  }
   return json.dump(2) + "\n";
 }
 

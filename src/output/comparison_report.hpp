@@ -1,52 +1,43 @@
-// One drive with its sensor before and after the gap, side by side.
+// Drives side by side, as text and as JSON.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "analysis/step_response.hpp"
-#include "model/reduced_drive.hpp"
-#include "output/answer_report.hpp"
+#include "analysis/grid/axis.hpp"
+#include "gearlash/comparison.hpp"
+#include "output/report_units.hpp"
 
 namespace gearlash {
 
-struct SensorCase {
-  SensorPlace place = SensorPlace::load;
-  AnswerReport report{};
-  StepResponse response;
-};
+/// What a comparison shows if nothing else is asked for.
+std::vector<Quantity> usual_quantities_compared();
 
 struct ComparisonReport {
-  std::vector<SensorCase> cases;  ///< at least one
-  Provenance provenance = {};
-};
-
-/// How a report is written: the unit of its angles, and what made it.
-struct ReportStyle {
-  AngleUnit angle{};
+  std::vector<ComparedDrive> drives{};  ///< at least one
+  std::vector<Quantity> quantities = usual_quantities_compared();
+  std::optional<Axis> axis{};       ///< of values of one parameter, one for each drive
+  std::vector<AngleUnit> angles{};  ///< of each drive; the table has the first one's
   Provenance provenance{};
 };
 
-/// The drive with its sensor at each of these places; an encoder keeps its counts per turn on
-/// either shaft. Throws InvalidInput where no place is named. Precondition: a sound drive.
-ComparisonReport compare_sensors(const Drive& drive, const std::vector<SensorPlace>& places,
-                                 const drive::Step& step, const ReportStyle& style,
-                                 Progress& progress = no_progress());
+/// Whether no drive has a time scale: times are in 1/ω_n.
+bool is_normalized(const ComparisonReport& report);
+/// rad: the step that all make; empty where none was made.
+std::optional<double> step_of(const ComparisonReport& report);
 
-/// The step to compare: usual_step(), in size and duration as far as they are not given. Throws
-/// InvalidInput, naming the fields, for a size of 0 and a duration that is not positive.
-struct StepFields {
-  const char* size = "step";
-  const char* until = "until";
-};
-drive::Step step_of_comparison(const Drive& drive, std::optional<double> size,
-                               std::optional<double> until, const StepFields& fields = {});
+/// The drives with each value of an axis, named by it: "load", "12 arcmin".
+std::vector<NamedDrive> drives_along(const Axis& axis, const Drive& drive, const AngleUnit& angle);
 
-/// One column for each case: hunting, static error at the load, step response. Ends with a newline.
+/// The headline of each drive, as limit-cycle has it, on a line of its own after the name.
+std::string comparison_headlines(const ComparisonReport& report);
+
+/// The headlines, a table with one column for each drive, and what else to know. Ends with a
+/// newline.
 std::string comparison_text(const ComparisonReport& report);
 
-/// The JSON that docs/reference/command-line.md specifies.
+/// "gearlash/compare/2", specified in docs/schemas/compare.schema.json, in SI. Ends with a newline.
 std::string comparison_json(const ComparisonReport& report);
 
 }  // namespace gearlash

@@ -1,4 +1,4 @@
-// The step responses of a drive for each place of its sensor.
+// The step responses of drives side by side.
 #pragma once
 
 #include <string>
@@ -8,7 +8,8 @@
 
 namespace gearlash {
 
-/// Draws the load over time, one curve for each place of the sensor. Throws OutputError.
+/// Draws the load over time, one curve for each drive, until the last one stays or ends. Throws
+/// OutputError.
 std::string draw_comparison(const ComparisonReport& report, PictureFormat format);
 
 }  // namespace gearlash

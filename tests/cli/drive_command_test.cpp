@@ -1,4 +1,4 @@
-// simulate, limit-cycle and compare on drives.
+// simulate and limit-cycle on drives.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -220,24 +220,6 @@ TEST_F(DriveCommand, PicturesGoOnUntilSlowHuntingShows) {
   EXPECT_THAT(drawn({"--until", "6"}), HasSubstr("the last 2 s, enlarged"));
 }
 
-/// Only with the sensor on the load the gap is in the loop.
-TEST_F(DriveCommand, ComparePutsSensorsSideBySide) {
-  const std::string drive = file(std::string(mechanics) + proportional);
-  const Outcome run = run_tool({"compare", drive});
-  EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(lines_of(run.out)[0], HasSubstr("load"));
-  std::string unwrapped = run.out;
-  std::replace(unwrapped.begin(), unwrapped.end(), '\n', ' ');
-  EXPECT_THAT(unwrapped, HasSubstr("which this controller does not use"));
-  const json found =
-      json::parse(run_tool({"compare", drive, "--sensor", "motor,load", "--format", "json"}).out);
-  EXPECT_EQ(found["cases"][0]["sensor"], "motor");
-  EXPECT_EQ(found["cases"][0]["limit_cycle"]["verdict"], "comes to rest");
-  EXPECT_EQ(found["cases"][1]["limit_cycle"]["verdict"], "hunts");
-  const double backlash = 0.2 * std::acos(-1.0) / 180.0;
-  EXPECT_NEAR(found["cases"][0]["step_response"]["step"], 10.0 * backlash, 1e-15);
-}
-
 TEST_F(DriveCommand, EdgeFaultsOfFileAndOptionsAreToldTogether) {
   const std::string drive = file(std::string(mechanics) + with_speed);
   EXPECT_THAT(lines_of(run_tool({"limit-cycle", drive, "--damping", "0.2"}).err),
@@ -245,10 +227,6 @@ TEST_F(DriveCommand, EdgeFaultsOfFileAndOptionsAreToldTogether) {
   const std::string sampled = "examples/dynamixel-joint.toml";
   EXPECT_THAT(run_tool({"limit-cycle", sampled, "--plot", "tornado=a.svg"}).err,
               HasSubstr("--plot = tornado: must be left out: this drive has no sensitivities; "));
-  EXPECT_THAT(lines_of(run_tool({"compare", drive, "--sensor", "load,load", "--step", "0",
-                                 "--until", "-1", "--plot", "a.svg"})
-                           .err),
-              testing::SizeIs(4));
   const std::string bad = file(std::string(mechanics) + "[controller]\nkind = \"PI\"\n");
   const Outcome several = run_tool({"simulate", bad, "--until", "0"});
   EXPECT_EQ(several.status, 2);

@@ -33,7 +33,7 @@ TEST(ExitStatus, ThreeForAPictureThatFailsWhoseAnswerIsPrinted) {
        {std::pair("limit-cycle" + sheet + " --plot phase=" + plot, "hunts: "),
         std::pair("limit-cycle examples/robot-joint.toml --plot phase=" + plot, "hunts: the motor"),
         std::pair("describe" + sheet + " --plot nyquist=" + plot, "hunts: "),
-        std::pair("compare" + sheet + " --sensor load --plot time=" + plot, "  sensor on"),
+        std::pair("compare" + sheet + " --sensor load --plot time=" + plot, "  load  hunts: "),
         std::pair("simulate" + sheet + " --plot phase=" + plot, "time_s,"),
         std::pair("simulate examples/robot-joint.toml --plot time=" + plot, "time_s,"),
         std::pair(

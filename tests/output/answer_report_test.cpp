@@ -8,7 +8,6 @@
 
 #include "gearlash/output.hpp"
 #include "output/ceiling_report.hpp"
-#include "output/comparison_report.hpp"
 
 namespace gearlash::answer_report_test {
 namespace {
@@ -159,20 +158,6 @@ TEST(AnswerText, ListsUnstableCyclesInALineEach) {
   AnswerReport report = report_of(Verdict::comes_to_rest, unstable);
   EXPECT_THAT(answer_text(report),
               HasSubstr("\nUnstable limit cycles, on which no motion stays\n  symmetric"));
-}
-
-TEST(Comparison, OfAMotorThatTicksGivesItsAmplitude) {
-  ComparisonReport comparison;
-  comparison.cases.push_back({.place = SensorPlace::motor,
-                              .report = report_of(Verdict::hunts, ticking),
-                              .response = {.step = 0.1, .until = 1.0}});
-  EXPECT_THAT(comparison_text(comparison), HasSubstr("motor ±0.004 rad"));
-  // Likewise where the ticks were not seen to repeat.
-  AnswerReport irregular = report_of(Verdict::hunts_irregularly);
-  irregular.answer.irregular = {
-      {.amplitude = 1e-12, .motor_amplitude = 0.005, .is_motor_alone = true}};
-  comparison.cases[0].report = irregular;
-  EXPECT_THAT(comparison_text(comparison), HasSubstr("motor ±0.005 rad"));
 }
 
 }  // namespace

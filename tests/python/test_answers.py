@@ -44,10 +44,35 @@ def test_reports_are_those_of_the_tool(example, tool, command):
     assert str(report).strip()
 
 
+def test_comparisons_are_those_of_the_tool(example, tool, servo):
+    file = example("elinco-fd162.toml")
+    drive = gearlash.Drive.from_toml(file)
+    ours = gearlash.compare(drive, {"gearbox.backlash": [0.1, 0.2]}, ["amplitude"], step=1.0)
+    theirs = json.loads(tool("compare", file, "--x", "gearbox.backlash=0.1,0.2", "--quantities",
+                             "amplitude", "--step", "1 rad", "--format", "json"))
+    assert without_provenance(ours) == without_provenance(theirs)
+    files = {name: example(f"{name}.toml") for name in ("elinco-fd162", "dynamixel-joint")}
+    ours = gearlash.compare({name: gearlash.Drive.from_toml(file) for name, file in files.items()})
+    theirs = json.loads(tool("compare", *files.values(), "--format", "json"))
+    assert without_provenance(ours) == without_provenance(theirs)
+
+
+def test_a_comparison_has_one_axis_or_several_drives(servo):
+    with pytest.raises(ValueError, match="axes must be one, not 2"):
+        gearlash.compare(servo, {"servo.damping": [0.1], "servo.backlash": [0.1]})
+    with pytest.raises(TypeError, match="axes need one drive"):
+        gearlash.compare({"a": servo}, {"servo.damping": [0.1]})
+    with pytest.raises(gearlash.InvalidInput, match="servo.damping"):
+        gearlash.compare(servo, [gearlash.Axis("servo.damping", [-1.0])])
+    with pytest.raises(gearlash.InvalidInput, match="drives = 0: must be from 1 to 100"):
+        gearlash.compare({})
+    with pytest.raises(gearlash.InvalidInput, match=r"step = 0.*\n.*until = -1"):
+        gearlash.compare({"a": servo}, step=0.0, until=-1.0)
+
+
 def test_what_is_not_a_sequence_is_refused(servo, pd_drive):
-    with pytest.raises(gearlash.InvalidInput, match="sensors"):
-        gearlash.compare(pd_drive, [])
     for call in (lambda: gearlash.compare(pd_drive, "load"),
+                 lambda: gearlash.compare(pd_drive, quantities="amplitude"),
                  lambda: gearlash.derivatives(servo, "amplitude", ["servo.damping"]),
                  lambda: gearlash.sweep(servo, {"servo.damping": [0.1]}, "amplitude"),
                  lambda: gearlash.design(servo, "no-hunting", "servo.damping")):
