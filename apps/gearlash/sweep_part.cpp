@@ -158,11 +158,12 @@ void SweepPart::write_record(const GridContents& contents, const SweepRecord& re
 
 void SweepPart::finish() {
   std::error_code error;
+  const fs::path folder = folder_of(output_);  // nothing may fail for want of memory after this
   fs::rename(data_, output_, error);
   if (error) throw OutputError(shown_output_ + ": cannot be written: " + error.message());
   may_remove_data_ = false;
   fs::remove(record_, error);
-  bring_name_to_disk(output_);
+  bring_names_to_disk(folder);
 }
 
 std::size_t SweepPart::bytes() const {

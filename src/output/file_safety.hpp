@@ -15,7 +15,9 @@ enum class FileLock {
 /// stays when HDF5 opens, locks and closes the same file.
 FileLock lock_file(int descriptor);
 
-/// Writes the file's name to the disk (fsync of its folder), if the system supports that.
-void bring_name_to_disk(const std::filesystem::path& file);
+std::filesystem::path folder_of(const std::filesystem::path& file);
+
+/// Writes the names of a folder's files to the disk (fsync), if the system supports that.
+void bring_names_to_disk(const std::filesystem::path& folder);
 
 }  // namespace gearlash

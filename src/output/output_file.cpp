@@ -224,9 +224,11 @@ void OutputFile::commit() {
   if (closed != 0) refuse("cannot be written");
   if (target_.empty()) return;
   UnfinishedOutput& output = output_in(slot_);
+  // Nothing may fail for want of memory once the file has its name.
+  const std::filesystem::path folder = folder_of(target_);
   if (std::rename(output.name.data(), target_.c_str()) != 0) refuse("cannot be written");
   output.exists = false;
-  bring_name_to_disk(target_);
+  bring_names_to_disk(folder);
 }
 
 void OutputFile::refuse(const std::string& action) const {

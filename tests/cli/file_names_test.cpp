@@ -68,6 +68,7 @@ TEST_F(FileNames, FaultsStayOnOneLineOfText) {
   const Outcome outcome = run("show ARGUMENTS");
   EXPECT_EQ(outcome.status, 2);
   EXPECT_THAT(outcome.err, HasSubstr("caf\\xe9.csv:3: time = 0: must be later"));
+  std::ofstream(folder_ / table) << "time (s), position (rad)\n0, 0\n0.1, 0.2\n";
   const Outcome own = run("simulate ARGUMENTS --output $'caf\\xE9.csv'");
   EXPECT_EQ(own.status, 2);
   EXPECT_THAT(own.err, HasSubstr("must not be the file of reference.file, caf\\xe9.csv"));

@@ -69,9 +69,12 @@ const std::vector<std::string> controllers = {
     "kind = \"P\"\nkp = \"1 N m/rad\"\nbacklash_compensation = \"6 arcmin\"\n"
     "compensation_input = \"error\"\ntake_up_angle = \"1 arcmin\"",
     "kind = \"P\"\nkp = \"1 N m/rad\"\nbacklash_compensation = \"6 arcmin\"\n"
-    "take_up_time = \"10 ms\"",
+    "take_up_time = \"10 ms\""};
+
+/// Its manual states no period.
+const std::string sampled_controller =
     "kind = \"simplefoc\"\nP_angle = 20\nPID_velocity_P = 0.5\nPID_velocity_I = 10\n"
-    "LPF_velocity_Tf = 0.01"};
+    "LPF_velocity_Tf = 0.01";
 
 const std::vector<std::string> references = {
     "",
@@ -108,8 +111,10 @@ std::vector<Drive> drives_of_every_kind() {
       "kind = 'constant'\nvalue = '0.1 N m'", "kind = 'step'\nafter = '0.1 N m'",
       "kind = 'sine'\namplitude = '0.1 N m'\nfrequency = '1 Hz'",
       "kind = 'table'\ntimes = [0, 1]\nvalues = [0, 0.1]"};
-  for (std::size_t i = 0; i < controllers.size(); ++i) {
-    drives.push_back(read(plant + "[controller]\n" + controllers[i] + "\n" +
+  std::vector<std::string> all = controllers;
+  all.push_back(sampled_controller);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    drives.push_back(read(plant + "[controller]\n" + all[i] + "\n" +
                           references[i % references.size()] + "\n" + parts + "[load_torque]\n" +
                           torques[i % torques.size()] + "\n"));
   }
