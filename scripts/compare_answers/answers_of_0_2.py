@@ -14,8 +14,43 @@ from . import picture
 INPUT, TABLE, PICTURE = "input.toml", "table", "region.svg"
 
 
+# 0.2 had these names in designs and margins: of a normal form, multiples of the present value, shares
+# of the total inertia, and shares of the critical friction. What they are now are numbers of the
+# drive that it stands for.
+NAMES = {"gear_ratio": "gearbox.ratio", "error_gain": "controller.proportional",
+         "load_inertia": "load.inertia", "motor_inertia": "motor.inertia",
+         "load_friction": "load.friction", "motor_friction": "motor.friction",
+         "tachometer": "controller.motor_speed_feedback"}
+
+
+def name_in_0_2(path, drive):
+    """The name, and the number that is now its unit."""
+    is_form = any(name.startswith("servo.") for name in drive or {})
+    for older, newer in NAMES.items():
+        if newer != path or not (is_form or older == "tachometer"):
+            continue
+        frequency = (drive or {}).get("servo.natural_frequency") or 1.0
+        critical = 2.0 * frequency if "friction" in newer or older == "tachometer" else 1.0
+        return older, (critical if is_form else 1.0) * (
+            frequency ** 2 if older == "error_gain" else 1.0)
+    return path, 1.0
+
+
+def divided(values, unit):
+    """All numbers of a value, a range or lists of them."""
+    if isinstance(values, dict):
+        return {key: divided(one, unit) for key, one in values.items()}
+    if isinstance(values, list):
+        return [divided(one, unit) for one in values]
+    return values / unit if isinstance(values, (int, float)) and unit != 1.0 else values
+
+
 def ask(question):
     form, options = question["form"], dict(question["with"])
+    for option in ("parameters", "vary"):
+        if option in options:
+            options[option] = ",".join(NAMES.get(name, name)
+                                       for name in str(options[option]).split(","))
     words = question["verb"].split()
     if question["drive"] and INPUT not in words and words[0] != "thesis":
         words.append(INPUT)
@@ -120,24 +155,31 @@ def ceiling(source):
             "terms": terms}
 
 
-def margins(source):
+def margins(source, drive):
     if not source:
         return {}
+
+    def borders(one):
+        unit = name_in_0_2(one["parameter"], drive)[1]
+        return divided(chosen(one, "below above"), unit)
     combined = source["overall"] or source["combined"] or {}
     return {"hunts": source["hunts"], "stopped": source["stopped"],
             "distance": combined.get("distance"),
-            "parameters": {one["parameter"]: {
-                **chosen(one, "below above certified located"),
+            "parameters": {name_in_0_2(one["parameter"], drive)[0]: {
+                **borders(one), **chosen(one, "certified located"),
                 "choices": sorted(one["choices"]), "undecided": len(one["undecided"])}
                 for one in source["parameters"]}}
 
 
-def sensitivities(source):
+def sensitivities(source, drive):
     if not source:
         return {}
-    return {"available": source["available"], "slopes": {
-        f"{name} by {one['parameter']}": derivative["slope"] for one in source["numbers"]
-        for name, derivative in one.items() if isinstance(derivative, dict)}}
+    slopes = {}
+    for one in source["numbers"]:
+        by, unit = name_in_0_2(one["parameter"], drive)
+        slopes |= {f"{name} by {by}": derivative["slope"] and derivative["slope"] * unit
+                   for name, derivative in one.items() if isinstance(derivative, dict)}
+    return {"available": source["available"], "slopes": slopes}
 
 
 def in_the_end(answer):
@@ -154,8 +196,8 @@ def in_the_end(answer):
                            for one in answer["thresholds"]},
             "enclosures": answer["bounds"] or {}, "ceiling": ceiling(answer["ceiling"]),
             "specification": chosen(answer["specification"], "widest_backlash is_met"),
-            "margins": margins(answer["margin"]),
-            "sensitivities": sensitivities(answer["sensitivities"])}
+            "margins": margins(answer["margin"], answer["drive"]),
+            "sensitivities": sensitivities(answer["sensitivities"], answer["drive"])}
 
 
 # ---- what must change ---------------------------------------------------------------------------
@@ -166,15 +208,21 @@ def performance(source):
     inner = source.get("performance", source)
     keys = "verdict growth_at_rest amplitude motor_amplitude frequency static_error"
     return {**chosen(inner, keys), **(source.get("loop") or {}),
-            **chosen(source.get("response"), "rise_time overshoot settling_time")}
+            **(source.get("normal_form") or {}), **chosen(source.get("response"), "rise_time overshoot settling_time")}
 
 
-def feasible(source):
+def feasible(source, drive):
+    unit = name_in_0_2(source["parameter"], drive)[1]
+
     def value(key):
         found = source[key]
-        return {"value": found["value"], **performance(found)} if found else {}
-    return {**chosen(source, "present certified located"), "intervals": parts(source["intervals"]),
-            "searched": parts([source["searched"]]), "undecided": parts(source["undecided"]),
+        return {"value": divided(found["value"], unit), **performance(found)} if found else {}
+
+    def scaled(values):
+        return parts(divided(values, unit))
+    return {"present": divided(source["present"], unit), **chosen(source, "certified located"),
+            "intervals": scaled(source["intervals"]), "searched": scaled([source["searched"]]),
+            "undecided": scaled(source["undecided"]),
             "borders": [[border["kind"], border["at"]] for border in source.get("borders") or []],
             "proved": [parts(proof["proved"]) for proof in source.get("proofs") or []],
             "reasons": [meaning(proof["reason"]) for proof in source.get("proofs") or []],
@@ -183,7 +231,8 @@ def feasible(source):
 
 def design(answer):
     return {"met": answer["met"], "present": performance(answer["present"]),
-            "parameters": {one["parameter"]: feasible(one) for one in answer["answers"]}}
+            "parameters": {name_in_0_2(one["parameter"], answer["drive"])[0]:
+                           feasible(one, answer["drive"]) for one in answer["answers"]}}
 
 
 def tuned(source):

@@ -346,7 +346,7 @@ void narrow(const Drive& drive, const Axis& axis, const ClosedFormLine* line, co
     for (const Bounds& part : within.intervals) found.intervals.push_back(part);
     for (const Bounds& part : within.undecided) found.undecided.push_back(part);
   }
-  if (found.kind == SearchKind::searched) name_ends(intervals, found);
+  name_ends(intervals, found);
   if (found.intervals.empty() && !all.empty()) found.closest = closest_of(all);
   found.searched_within = others;
   found.evaluations += search.evaluations();
