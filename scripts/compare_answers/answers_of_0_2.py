@@ -14,9 +14,9 @@ from . import picture
 INPUT, TABLE, PICTURE = "input.toml", "table", "region.svg"
 
 
-# 0.2 had these names in designs and margins: of a normal form, multiples of the present value, shares
-# of the total inertia, and shares of the critical friction. What they are now are numbers of the
-# drive that it stands for.
+# 0.2 had these names in designs and margins: of a normal form, multiples of the present value and
+# shares of the total inertia and of the critical friction. They are now numbers of the drive that
+# it stands for.
 NAMES = {"gear_ratio": "gearbox.ratio", "error_gain": "controller.proportional",
          "load_inertia": "load.inertia", "motor_inertia": "motor.inertia",
          "load_friction": "load.friction", "motor_friction": "motor.friction",
@@ -208,7 +208,8 @@ def performance(source):
     inner = source.get("performance", source)
     keys = "verdict growth_at_rest amplitude motor_amplitude frequency static_error"
     return {**chosen(inner, keys), **(source.get("loop") or {}),
-            **(source.get("normal_form") or {}), **chosen(source.get("response"), "rise_time overshoot settling_time")}
+            **(source.get("normal_form") or {}),
+            **chosen(source.get("response"), "rise_time overshoot settling_time")}
 
 
 def feasible(source, drive):

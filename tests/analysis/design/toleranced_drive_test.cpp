@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/design/drives.hpp"
+#include "model/parameters.hpp"
 #include "toleranced_samples.hpp"
 
 namespace gearlash::toleranced_drive_test {
