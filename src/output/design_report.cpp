@@ -291,7 +291,7 @@ std::string certified_text(const DesignReport& report) {
 std::string scanned_text(const DesignReport& report) {
   const std::string names = names_of(report, SearchKind::scanned);
   if (names.empty()) return "";
-  const std::string text =
+  std::string text =
       "Scanned, not proved: " + names + ". Many values were tried, and others may be missed.";
   const std::string open = undecided_parts(report, SearchKind::scanned);
   if (open.empty()) return text;
@@ -332,9 +332,9 @@ std::string within_text(const DesignReport& report) {
   for (const DesignedParameter& parameter : report.parameters) {
     const FeasibleValues& values = parameter.values;
     if (is_empty(values.searched_within)) continue;
-    const std::string where =
-        is_of_figures(report, values) ? "Computed" : "Within these values computed";
-    return where + " at many values, not bounded: " + names_of(values.searched_within) +
+    const std::string where = is_of_figures(report, values) ? "" : " within these";
+    return "These are computed at many values" + where +
+           ", not bounded over them: " + names_of(values.searched_within) +
            ". What is narrower than the distance of two values may be missed.";
   }
   return "";

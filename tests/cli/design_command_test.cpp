@@ -121,6 +121,29 @@ TEST(EdgeDesignCommand, FaultsAreToldAtOnce) {
   EXPECT_EQ(missing.status, 2);
 }
 
+/// FINDINGS B1 of version 0.2: "no value meets the target", searched from 0.1 to 10 times.
+TEST(DesignCommand, AConditionMoreLosesNoProof) {
+  const auto answers_of = [](const std::string& target) {
+    const Outcome run =
+        run_tool({"design", "examples/elinco-fd162.toml", "--target", target, "--parameters",
+                  "load.friction,controller.motor_speed_feedback", "--format", "json"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    return nlohmann::json::parse(run.out)["answers"];
+  };
+  const auto alone = answers_of("no-hunting");
+  const auto kept = answers_of("no-hunting and bandwidth >= 0.01 Hz");
+  const auto narrowed = answers_of("no-hunting and bandwidth >= 1 Hz");
+  for (const auto& answers : {kept, narrowed}) {
+    EXPECT_EQ(answers[0]["certified"], true);
+    EXPECT_EQ(answers[0]["searched"], alone[0]["searched"]);
+    EXPECT_EQ(answers[0]["searched_within"], nlohmann::json({"bandwidth"}));
+    EXPECT_EQ(answers[0]["intervals"][0]["from"], alone[0]["intervals"][0]["from"]);
+  }
+  EXPECT_EQ(kept[0]["intervals"], alone[0]["intervals"]);
+  EXPECT_EQ(kept[1]["intervals"], alone[1]["intervals"]);
+  EXPECT_LT(narrowed[0]["intervals"][0]["to"], alone[0]["intervals"][0]["to"]);
+}
+
 TEST(DesignCommand, TakesAnyNumberOfTheClosedFormByItsPath) {
   const Outcome run = run_tool(
       {"design", "examples/elinco-fd162.toml", "--set", "motor.resistance=300 ohm", "--target",
@@ -186,7 +209,7 @@ TEST(DesignCommand, ATargetOnCeilingsIsProved) {
   EXPECT_THAT(run.out, HasSubstr("Every value of these parts meets the target\n"
                                  "  gearbox.backlash 5 to 20 arcmin: proved for 5 to 20 arcmin "
                                  "(1 box)\n"));
-  EXPECT_THAT(run.out, HasSubstr("Computed at many values, not bounded: ceiling."));
+  EXPECT_THAT(run.out, HasSubstr("computed at many values, not bounded over them: ceiling."));
   std::vector<std::string> as_json = words;
   as_json.insert(as_json.end(), {"--format", "json"});
   const auto answer = nlohmann::json::parse(run_tool(as_json).out)["answers"][0];

@@ -38,8 +38,8 @@ Drive ClosedFormLine::drive_at(double value) const {
 }
 
 std::optional<FinalServo> ClosedFormLine::at(double value) const {
-  FinalServo servo = servo_without_checks(drive_at(value));
-  return validate(servo.drivetrain).empty() ? std::optional(std::move(servo)) : std::nullopt;
+  const FinalServo servo = servo_without_checks(drive_at(value));
+  return validate(servo.drivetrain).empty() ? std::optional(servo) : std::nullopt;
 }
 
 Answer ClosedFormLine::answer_at(double value) const {
