@@ -111,7 +111,7 @@ std::size_t values_to_draw(const Drive& drive, std::string_view x, std::string_v
   const auto may_bounce = [&](std::string_view parameter) {
     return ClosedFormLine::along(drive, std::string(parameter))->has_bounces();
   };
-  return may_bounce(x) || may_bounce(y) ? 40 : 120;
+  return may_bounce(x) || may_bounce(y) ? 40 : 200;
 }
 
 FeasibleRegion feasible_region(const Drive& drive, const Axis& x, const Axis& y,

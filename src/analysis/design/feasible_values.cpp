@@ -317,9 +317,13 @@ void name_ends(const std::vector<Bounds>& before, FeasibleValues& found) {
   };
   std::erase_if(found.borders,
                 [&](const Border& border) { return !has_end(found.intervals, border.end); });
+  const auto is_open = [&](double end) {
+    return std::any_of(found.undecided.begin(), found.undecided.end(),
+                       [&](const Bounds& part) { return part.contains(end); });
+  };
   for (const Bounds& interval : found.intervals) {
     for (const double end : {interval.low, interval.high}) {
-      if (has_end(before, end)) continue;
+      if (has_end(before, end) || is_open(end)) continue;
       found.borders.push_back({.end = end, .kind = BorderKind::limit, .at = end});
     }
   }
