@@ -82,6 +82,13 @@ void apply(TomlDocument& document, const Setting& setting) {
   for (const OtherForm& form : parameter.other_forms) {
     take_out(form.path, form.dimension == nullptr);
   }
+  // [loop] is a controller with keys of its own.
+  const auto has_section = [&](const char* name) { return document.root().contains(name); };
+  if (has_section("loop") && !has_section("controller")) {
+    for (const OtherForm& form : parameter.other_forms) {
+      if (form.path.starts_with("loop.") && is_direct) place = form.path;
+    }
+  }
   // Everything but a list or a table becomes text, which the key's reader parses: "30 arcmin",
   // "1/4".
   if (const std::optional<toml::array> list = list_in(setting.text)) {

@@ -376,6 +376,7 @@ std::vector<Parameter> motor_speed_feedback() {
        },
        .meaning = "feedback of the motor's speed by a tachometer, beside the law",
        .permitted = Permitted::not_negative,
+       .other_forms = {{"loop.motor_speed_feedback"}},
        .usual = {1e-4, 10.0}}};
 }
 

@@ -144,6 +144,19 @@ TEST(DesignCommand, AConditionMoreLosesNoProof) {
   EXPECT_LT(narrowed[0]["intervals"][0]["to"], alone[0]["intervals"][0]["to"]);
 }
 
+/// The tachometer that a design asks for, typed into the drive.
+TEST(DesignCommand, ATachometerThatIsAskedForEndsTheHunting) {
+  const auto verdict_with = [](const char* feedback) {
+    const Outcome run =
+        run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--set",
+                  std::string("controller.motor_speed_feedback=") + feedback, "--format", "json"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    return nlohmann::json::parse(run.out)["verdict"].get<std::string>();
+  };
+  EXPECT_EQ(verdict_with("7.5022 V s/rad"), "hunts");
+  EXPECT_EQ(verdict_with("7.5023 V s/rad"), "cannot hunt");
+}
+
 TEST(DesignCommand, TakesAnyNumberOfTheClosedFormByItsPath) {
   const Outcome run = run_tool(
       {"design", "examples/elinco-fd162.toml", "--set", "motor.resistance=300 ohm", "--target",
