@@ -195,6 +195,14 @@ void set_on(const Axis& axis, Drive& drive, double value) {
   }
 }
 
+void set_on(const std::vector<Axis>& axes, Drive& drive, std::span<const double> values) {
+  for (const bool are_of_form : {true, false}) {
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      if (axes[i].path.starts_with("servo.") == are_of_form) set_on(axes[i], drive, values[i]);
+    }
+  }
+}
+
 std::string cut_to_permitted(Axis& axis, const Drive& drive) {
   const Parameter& parameter = *parameter_of(axis, drive);
   std::vector<double> left_out;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,6 +53,9 @@ Axis usual_axis(std::string_view field, const Drive& drive, std::string_view par
 
 /// Sets the drive's parameter to a value of the axis. Precondition: parameter_of(axis, drive).
 void set_on(const Axis& axis, Drive& drive, double value);
+/// The same with a value for each axis. The numbers of a normal form are set first: others make it
+/// the drive that it stands for.
+void set_on(const std::vector<Axis>& axes, Drive& drive, std::span<const double> values);
 
 /// `position_on`: how far along the axis a value lies, from 0 to 1, in value or in logarithm as the
 /// axis is spaced. `value_at`: its inverse, limited to the ends. `interval_of`: the index of the

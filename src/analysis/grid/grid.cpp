@@ -17,7 +17,7 @@ std::vector<Fault> faults_of_corners(const Grid& grid, bool are_axes_sound) {
   std::vector<Fault> found;
   for (const std::vector<double>& corner : corners_of(grid)) {
     Drive drive = grid.drive;
-    for (std::size_t i = 0; i < corner.size(); ++i) set_on(grid.axes[i], drive, corner[i]);
+    set_on(grid.axes, drive, corner);
     found = faults(drive);
     if (found.empty()) break;
   }
@@ -80,7 +80,7 @@ std::size_t Grid::size() const {
 Drive Grid::at(std::size_t index) const {
   const std::vector<double> values = values_at(*this, index);
   Drive point = drive;
-  for (std::size_t i = 0; i < axes.size(); ++i) set_on(axes[i], point, values[i]);
+  set_on(axes, point, values);
   return point;
 }
 

@@ -71,12 +71,7 @@ GridPoints::GridPoints(const Grid& grid) : drive_(grid.drive) {
 
 Drive GridPoints::drive_at(std::span<const double> values) const {
   Drive drive = drive_;
-  // The numbers of a normal form first: others make it the drive that it stands for.
-  for (const bool are_of_form : {true, false}) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (axes_[i].path.starts_with("servo.") == are_of_form) set_on(axes_[i], drive, values[i]);
-    }
-  }
+  set_on(axes_, drive, values);
   return drive;
 }
 
