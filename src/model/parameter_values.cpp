@@ -79,6 +79,10 @@ const OtherForm* form_named(const Parameter& parameter, std::string_view path) {
 
 void take_form_with(Drive& drive, std::string_view path) {
   if (!drive.servo) return;
+  // Of a rounded ratio near 1 hardly anything is known of 1 − φ, to which proofs would give the
+  // error of a datum.
+  constexpr double near_1 = 127.0 / 128.0;
+  if (drive.is_rounded && drive.servo->friction_ratio > near_1) return;
   const std::string_view plain = path.substr(0, path.find('['));
   const bool may_have_it =
       find_parameter(plain) != nullptr && find_parameter(plain, drive) == nullptr;

@@ -1,5 +1,9 @@
 #include "model/reduced_drive.hpp"
 
+#include <cstdint>
+#include <string>
+
+#include "base/decimal.hpp"
 #include "model/proportional_servo.hpp"
 #include "model/reduction.hpp"
 
@@ -53,9 +57,28 @@ drive::ReducedDrive reduce_settled(const Drive& drive) {
   return reduced;
 }
 
+namespace {
+
+/// 1 − φ of the decimal that a ratio above ½ stands for: a difference of doubles would have the
+/// error of φ, which may be all of it, and proofs take data for right to some units in the last
+/// place.
+double complement(double ratio) {
+  if (!(ratio > 0.5 && ratio < 1.0)) return 1.0 - ratio;
+  const std::string digits = shortest_text(ratio).substr(2);  // of "0.9999"
+  std::uint64_t whole = 1;
+  for (std::size_t i = 0; i < digits.size(); ++i) whole *= 10;
+  return *nearest_double(std::to_string(whole - std::stoull(digits)) + "e-" +
+                         std::to_string(digits.size()));
+}
+
+}  // namespace
+
 Drive physical_form(const Drive& drive) {
   if (!drive.servo) return drive;
-  const Drivetrain drivetrain = Reduction<AsRead>(drive).drivetrain_of_form();
+  Drivetrain drivetrain = Reduction<AsRead>(drive).drivetrain_of_form();
+  const NormalForm& form = *drive.servo;
+  drivetrain.motor_friction =
+      2.0 * form.damping * form.natural_frequency.value_or(1.0) * complement(form.friction_ratio);
   Drive physical = drive;
   physical.servo.reset();
   physical.motor = {.kind = TorqueControl{},

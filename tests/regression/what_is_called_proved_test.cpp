@@ -11,6 +11,7 @@
 #include "closed_form/growth_at_rest.hpp"
 #include "closed_form/limit_cycle.hpp"
 #include "closed_form/trajectory.hpp"
+#include "model/reduced_drive.hpp"
 
 namespace gearlash::what_is_called_proved_test {
 namespace {
@@ -76,6 +77,13 @@ TEST(RegressionProved, DesignLeavesOpenWhatTheDataLeaveOpen) {
   const FeasibleValues below = values_below(0.00831708);
   EXPECT_TRUE(below.intervals.empty());
   EXPECT_TRUE(below.undecided.empty());
+}
+
+// The drive that a normal form stands for has the friction of its decimals, 1 − .9999994345814354.
+TEST(RegressionProved, APhysicalFormHasTheComplementOfTheDecimal) {
+  const Drive drive = physical_form(normal_form(0.5, 2.0, .9999994345814354));
+  EXPECT_DOUBLE_EQ(drive.motor.friction.viscous, 5.654185646e-7);
+  EXPECT_NE(1.0 - .9999994345814354, 5.654185646e-7);
 }
 
 // "At present not met" and "any value meets", both as proved.
