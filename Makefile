@@ -103,7 +103,7 @@ clang:  ## build everything with clang 16, warnings being errors, and run every 
 # do for seconds.
 # SANITIZED, names of folders of tests, builds and runs the tests of these alone, and watches only
 # rooms of these names.
-ROOMS := base numeric model hybrid closed_form general analysis input output picture thesis
+ROOMS := base numeric model hybrid closed_form general question input output picture thesis
 AROUND := cd tests/around &&
 SANITIZED_TARGETS = own_eigen test_on_one_thread gearlash_tool gearlash_python_package reader_fuzzer \
                     $(filter-out test_python,$(SANITIZED:%=test_%))
@@ -133,7 +133,7 @@ oracle: programs  ## 1,000 random servos beside a slow and independent integrati
 	$(RELEASE)/tests/oracle/oracle_run
 
 followed: programs  ## 2,000 random drives: no ceiling and no proof by energy is violated
-	GEARLASH_DRIVES=2000 $(RELEASE)/tests/test_analysis \
+	GEARLASH_DRIVES=2000 $(RELEASE)/tests/test_question \
 	  --gtest_filter='PropertyCeiling*:PropertyAbsenceByEnergy*:PropertyGapSpeed*:PropertySafeStarts*'
 	$(RELEASE)/tests/oracle/drives/bound_drives --count 200 --follow
 
@@ -145,7 +145,7 @@ believed: programs  ## 500 random drives of six kinds: each start followed longe
 	$(RELEASE)/tests/oracle/drives/score_drives --kind frictionless --seeds 1:2000 --starts 0 --follow
 
 designed: programs  ## random design tasks of drives without a closed form, put back into them
-	GEARLASH_TASKS=300 $(RELEASE)/tests/test_analysis --gtest_filter='PropertySearchedValues*'
+	GEARLASH_TASKS=300 $(RELEASE)/tests/test_question --gtest_filter='PropertySearchedValues*'
 	$(RELEASE)/tests/oracle/drives/design_drives --count 300
 
 tuned: programs  ## gains of 20 industrial drives, tuned for their series, in the fixed-step simulator
@@ -159,11 +159,11 @@ references:  ## write the reference numbers of many digits again: tests/*/data/*
 REFERENCED ?= 4
 referenced: programs  ## 18,000 other servos and much else beside numbers of many digits
 	tests/references/make --times $(REFERENCED) --to build/references
-	set -e; for room in closed_form general analysis; do GEARLASH_REFERENCES=$(CURDIR)/build/references \
+	set -e; for room in closed_form general question; do GEARLASH_REFERENCES=$(CURDIR)/build/references \
 	  $(RELEASE)/tests/test_$$room --gtest_filter='*Oracle*'; done
 
 derivatives: programs  ## 300 random limit cycles: their derivatives beside differences
-	GEARLASH_CYCLES=300 $(RELEASE)/tests/test_analysis --gtest_filter='PropertySearchedSensitivity*'
+	GEARLASH_CYCLES=300 $(RELEASE)/tests/test_question --gtest_filter='PropertySearchedSensitivity*'
 
 seeded-faults: programs single  ## put small faults into the code: which does no test notice?
 	CMAKE_BUILD_PARALLEL_LEVEL=$(JOBS) tests/seeded_faults/run $(RELEASE) --single $(SINGLE) --jobs $(JOBS)

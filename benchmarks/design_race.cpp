@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "analysis/design/feasible_values.hpp"
-#include "analysis/design/hunting_margin.hpp"
-#include "analysis/design/tolerance_study.hpp"
-#include "closed_form/cycle_sensitivity.hpp"
+#include "closed_form/cycle_derivatives.hpp"
 #include "closed_form/limit_cycle.hpp"
+#include "question/change/feasible_values.hpp"
+#include "question/change/hunting_margin.hpp"
+#include "question/series/tolerance_study.hpp"
 
 namespace gearlash::benchmarks {
 namespace {

@@ -3,10 +3,10 @@
 #include <cstdio>
 #include <string>
 
-#include "analysis/pd_drive.hpp"
 #include "base/on_threads.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/grid.hpp"
+#include "question/pd_drive.hpp"
 
 namespace gearlash::benchmarks {
 namespace {

@@ -21,10 +21,10 @@
 #include <system_error>
 #include <vector>
 
-#include "analysis/grid/grid_pieces.hpp"
-#include "analysis/grid/hunting_boundary.hpp"
 #include "gearlash/version.hpp"
 #include "output/grid_netcdf.hpp"
+#include "question/map/grid_pieces.hpp"
+#include "question/map/hunting_boundary.hpp"
 
 namespace gearlash::benchmarks {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/grid/grid_evaluation.hpp"
+#include "question/map/grid_evaluation.hpp"
 
 namespace gearlash::benchmarks {
 

@@ -25,7 +25,7 @@ if(GEARLASH_THREADS)
   string(APPEND packages_of_pc ", tbb >= 2021")
 endif()
 set(numerics gearlash_base gearlash_numeric gearlash_model gearlash_hybrid gearlash_closed_form
-             gearlash_general gearlash_analysis)
+             gearlash_general gearlash_question)
 install(TARGETS gearlash ${numerics} EXPORT gearlash_numerics)
 gearlash_install_pkgconfig(gearlash ${numerics})
 install(EXPORT gearlash_numerics NAMESPACE gearlash:: FILE gearlashTargets.cmake

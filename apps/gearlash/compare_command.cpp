@@ -4,7 +4,6 @@
 #include <memory>
 #include <set>
 
-#include "analysis/analyse.hpp"
 #include "command.hpp"
 #include "grid_options.hpp"
 #include "input/units.hpp"
@@ -14,6 +13,7 @@
 #include "output/output_file.hpp"
 #include "picture/comparison_picture.hpp"
 #include "plot_option.hpp"
+#include "question/analyse.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 

@@ -6,11 +6,6 @@
 #include <memory>
 #include <utility>
 
-#include "analysis/design/closed_form_line.hpp"
-#include "analysis/design/drive_with_value.hpp"
-#include "analysis/design/feasible_values.hpp"
-#include "analysis/final_servo.hpp"
-#include "analysis/grid/axis.hpp"
 #include "base/progress_part.hpp"
 #include "command.hpp"
 #include "input/axis_text.hpp"
@@ -22,6 +17,11 @@
 #include "output/output_file.hpp"
 #include "picture/region_map.hpp"
 #include "plot_option.hpp"
+#include "question/axis.hpp"
+#include "question/change/closed_form_line.hpp"
+#include "question/change/drive_with_value.hpp"
+#include "question/change/feasible_values.hpp"
+#include "question/final_servo.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 

@@ -9,13 +9,13 @@
 #include <filesystem>
 #include <memory>
 
-#include "analysis/grid/grid_evaluation.hpp"
-#include "analysis/grid/grid_pieces.hpp"
-#include "analysis/grid/hunting_boundary.hpp"
 #include "base/progress_part.hpp"
 #include "base/range_check.hpp"
 #include "machine_faults.hpp"
 #include "picture/grid_map.hpp"
+#include "question/map/grid_evaluation.hpp"
+#include "question/map/grid_pieces.hpp"
+#include "question/map/hunting_boundary.hpp"
 #include "terminal.hpp"
 
 namespace gearlash::cli {

@@ -2,10 +2,6 @@
 #include <memory>
 #include <numbers>
 
-#include "analysis/analyse.hpp"
-#include "analysis/design/drive_sensitivity.hpp"
-#include "analysis/design/searched_sensitivity.hpp"
-#include "analysis/final_servo.hpp"
 #include "base/special_numbers.hpp"
 #include "command.hpp"
 #include "input/axis_text.hpp"
@@ -19,6 +15,10 @@
 #include "picture/ceiling_picture.hpp"
 #include "picture/tornado.hpp"
 #include "plot_option.hpp"
+#include "question/analyse.hpp"
+#include "question/change/derivatives.hpp"
+#include "question/change/orbit_derivatives.hpp"
+#include "question/final_servo.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 
@@ -117,7 +117,7 @@ struct Changes {
 void add_changes(Result& result, const Drive& drive, const Changes& wanted, LimitedWork& work) {
   const bool is_closed = gearlash::closed_form_drive(drive).has_value();
   // At the very ends of the ranges, rounding may put the ratios outside them.
-  const bool is_sound = !is_closed || validate(final_servo(drive)->drivetrain).empty();
+  const bool is_sound = !is_closed || faults(final_servo(drive)->drivetrain).empty();
   if (wanted.margins && is_sound) {
     TerminalProgress progress(work, "Margins");
     result.report.margin = wanted.axes.empty() ? hunting_margin(drive, progress)

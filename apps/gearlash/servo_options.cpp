@@ -5,8 +5,6 @@
 #include <filesystem>
 #include <utility>
 
-#include "analysis/analyse.hpp"
-#include "analysis/final_servo.hpp"
 #include "input/section_reader.hpp"
 #include "input/text_file.hpp"
 #include "input/units.hpp"
@@ -14,6 +12,8 @@
 #include "model/parameters.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/output_file.hpp"
+#include "question/analyse.hpp"
+#include "question/final_servo.hpp"
 
 namespace gearlash::cli {
 namespace {

@@ -6,7 +6,6 @@
 #include <memory>
 #include <numbers>
 
-#include "analysis/analyse.hpp"
 #include "base/range_check.hpp"
 #include "command.hpp"
 #include "gearlash/motion.hpp"
@@ -19,6 +18,7 @@
 #include "output/motion_report.hpp"
 #include "picture/motion_picture.hpp"
 #include "plot_option.hpp"
+#include "question/analyse.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <string>
 
-#include "analysis/grid/grid_evaluation.hpp"
 #include "base/checksum.hpp"
 #include "output/grid_description.hpp"
+#include "question/map/grid_evaluation.hpp"
 
 namespace gearlash {
 

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <system_error>
 
-#include "analysis/grid/grid_pieces.hpp"
 #include "output/grid_netcdf.hpp"
 #include "output/output_file.hpp"
+#include "question/map/grid_pieces.hpp"
 #include "sweep_part.hpp"
 #include "terminal.hpp"
 

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "analysis/grid/grid_evaluation.hpp"
 #include "input/sweep_file.hpp"
 #include "output/report_units.hpp"
+#include "question/map/grid_evaluation.hpp"
 
 namespace gearlash {
 

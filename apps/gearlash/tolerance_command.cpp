@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 
-#include "analysis/design/toleranced_drive.hpp"
 #include "command.hpp"
 #include "input/target_text.hpp"
 #include "limit_options.hpp"
@@ -17,6 +16,7 @@
 #include "output/tolerance_report.hpp"
 #include "picture/tolerance_pictures.hpp"
 #include "plot_option.hpp"
+#include "question/series/toleranced_drive.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 

@@ -4,7 +4,6 @@
 #include <memory>
 #include <numbers>
 
-#include "analysis/grid/axis.hpp"
 #include "command.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
@@ -16,6 +15,7 @@
 #include "model/reduced_drive.hpp"
 #include "output/output_file.hpp"
 #include "output/tune_report.hpp"
+#include "question/axis.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 

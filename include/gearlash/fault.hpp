@@ -7,7 +7,7 @@
 
 namespace gearlash {
 
-/// One value at fault. Every reader and every validate() reports in these terms.
+/// One value at fault. Every reader and every faults() reports in these terms.
 struct Fault {
   std::string path;       ///< dotted path as the author wrote it, for example "motor.inertia"
   std::string value;      ///< the value found, as written; empty if it is missing

@@ -4,7 +4,6 @@
 
 #include <complex>
 
-#include "analysis/describing/describing_function.hpp"
 #include "arrays.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/comparison.hpp"
@@ -17,6 +16,7 @@
 #include "module.hpp"
 #include "output/comparison_report.hpp"
 #include "output/describe_report.hpp"
+#include "question/loop/describing/describing_function.hpp"
 #include "records.hpp"
 
 namespace gearlash::python {

@@ -3,7 +3,6 @@
 
 #include <pybind11/stl.h>
 
-#include "analysis/design/tolerance_study.hpp"
 #include "arrays.hpp"
 #include "base/progress_part.hpp"
 #include "gearlash/input.hpp"
@@ -12,6 +11,7 @@
 #include "input/axis_text.hpp"
 #include "interruptible.hpp"
 #include "module.hpp"
+#include "question/series/tolerance_study.hpp"
 #include "records.hpp"
 
 namespace gearlash::python {

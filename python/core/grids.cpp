@@ -1,8 +1,6 @@
 // Many drives at once: grids and lists, with their columns as arrays without copies.
 #include <pybind11/stl.h>
 
-#include "analysis/grid/axis.hpp"
-#include "analysis/grid/grid_points.hpp"
 #include "arrays.hpp"
 #include "gearlash/grid.hpp"
 #include "gearlash/version.hpp"
@@ -10,6 +8,8 @@
 #include "interruptible.hpp"
 #include "module.hpp"
 #include "output/grid_description.hpp"
+#include "question/axis.hpp"
+#include "question/map/grid_points.hpp"
 #include "records.hpp"
 
 namespace gearlash::python {

@@ -32,7 +32,7 @@ struct BouncingCycles {
 ///   either side.
 /// Once sixteen cycles are known the recurrences of motions are no longer tried. At most four
 /// million events are followed in all, and 200,000 within one traversal: a second or two.
-/// Precondition: validate(servo) is empty, b > 0, contact not plastic.
+/// Precondition: faults(servo) is empty, b > 0, contact not plastic.
 BouncingCycles find_bouncing_cycles(const NormalizedServo& servo, const ServoDynamics& dynamics);
 
 }  // namespace gearlash

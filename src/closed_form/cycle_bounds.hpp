@@ -36,7 +36,7 @@ struct DataError {
   double hidden_motor_friction = 0.0;
 };
 
-/// The box of one servo. Precondition: validate(servo) is empty.
+/// The box of one servo. Precondition: faults(servo) is empty.
 ServoBox box_of(const NormalizedServo& servo, Reading reading);
 
 /// Drives with plastic contact, and the seconds in their unit of time, 1/ω_n.

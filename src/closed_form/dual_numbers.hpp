@@ -5,7 +5,7 @@
 #include <cmath>
 #include <unsupported/Eigen/AutoDiff>
 
-#include "closed_form/decay_slopes.hpp"
+#include "closed_form/decay_derivatives.hpp"
 #include "closed_form/engaged_flow.hpp"
 #include "closed_form/gap_flight.hpp"
 #include "model/normalized_servo.hpp"

@@ -15,7 +15,7 @@ namespace gearlash {
 /// condition holds. A contact absorbs ∫N u̇ dt ≥ 0 (theorem and proof:
 /// docs/explanation/absence-by-energy.md). The polynomial is decided exactly, in
 /// rational numbers, for the doubles themselves or for the decimals that they represent.
-/// Precondition: validate(servo) is empty, and the reading is exact or decimal: converted numbers
+/// Precondition: faults(servo) is empty, and the reading is exact or decimal: converted numbers
 /// make a box.
 bool is_dissipative(const NormalizedServo& servo, Reading reading = Reading::exact);
 

@@ -134,12 +134,12 @@ LimitCycleAnalysis enclosed(const NormalizedServo& servo, const ServoBox& box,
 }  // namespace
 
 LimitCycleAnalysis analyse_limit_cycles(const NormalizedServo& servo) {
-  require_none(validate(servo));
+  require_none(faults(servo));
   return analyse(servo, is_dissipative(servo));
 }
 
 LimitCycleAnalysis enclose_limit_cycles(const NormalizedServo& servo, const ServoBox& box) {
-  require_none(validate(servo));
+  require_none(faults(servo));
   LimitCycleAnalysis analysis = enclosed(servo, box, is_dissipative(box));
   analysis.rests_engaged = box.damping.high >= 1.0;
   return analysis;
@@ -147,7 +147,7 @@ LimitCycleAnalysis enclose_limit_cycles(const NormalizedServo& servo, const Serv
 
 LimitCycleAnalysis enclose_limit_cycles(const NormalizedServo& servo, Reading reading) {
   if (reading == Reading::converted) return enclose_limit_cycles(servo, box_of(servo, reading));
-  require_none(validate(servo));
+  require_none(faults(servo));
   return enclosed(servo, box_of(servo, reading), is_dissipative(servo, reading));
 }
 

@@ -63,7 +63,7 @@ BasicServoDynamics<Real> dynamics_of_shafts(const Real& damping, const Real& mot
   return dynamics;
 }
 
-/// Precondition: validate(servo) is empty.
+/// Precondition: faults(servo) is empty.
 ServoDynamics servo_dynamics(const NormalizedServo& servo);
 
 /// N = J_L ÿ + F_L ẏ = (F_L J_M − F_M J_L) ẏ − J_L y: the torque from engaged faces on the load.

@@ -39,11 +39,11 @@ double gap_allowance(const ServoState& state) {
          std::max(std::abs(state.motor_position), std::abs(state.load_position));
 }
 
-std::vector<Fault> validate_start(const NormalizedServo& servo, const ServoState& initial,
-                                  const SimulationOptions& options) {
+std::vector<Fault> faults_of_start(const NormalizedServo& servo, const ServoState& initial,
+                                   const SimulationOptions& options) {
   constexpr double largest = 1e100;  // squares and cubes stay finite
   RangeCheck check;
-  check.include(validate(servo));
+  check.include(faults(servo));
   check.within("initial.motor_position", initial.motor_position, -largest, largest);
   check.within("initial.motor_speed", initial.motor_speed, -largest, largest);
   check.within("initial.load_position", initial.load_position, -largest, largest);
@@ -154,7 +154,7 @@ ServoState engaged_start(const NormalizedServo& servo, double load_position, dou
 
 Trajectory simulate(const NormalizedServo& servo, const ServoState& initial,
                     const SimulationOptions& options) {
-  require_none(validate_start(servo, initial, options));
+  require_none(faults_of_start(servo, initial, options));
   Trajectory trajectory;
   trajectory.dynamics_ = servo_dynamics(servo);
   trajectory.reference_ = options.reference;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <charconv>
 
-#include "analysis/design/feasible_values.hpp"
-#include "analysis/grid/axis.hpp"
 #include "base/range_check.hpp"
 #include "gearlash/parameter.hpp"
 #include "gearlash/tune.hpp"
@@ -13,6 +11,8 @@
 #include "input/units.hpp"
 #include "model/parameter_values.hpp"
 #include "model/reduced_drive.hpp"
+#include "question/axis.hpp"
+#include "question/change/feasible_values.hpp"
 
 namespace gearlash {
 namespace {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "analysis/design/distribution.hpp"
 #include "input/parameter_text.hpp"
 #include "input/robot_form.hpp"
 #include "input/signal_reader.hpp"
@@ -12,6 +11,7 @@
 #include "model/normalized_servo.hpp"
 #include "model/parameters.hpp"
 #include "model/reduced_drive.hpp"
+#include "question/series/distribution.hpp"
 
 namespace gearlash {
 namespace {

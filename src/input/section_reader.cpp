@@ -4,7 +4,7 @@
 #include <limits>
 #include <numeric>
 
-#include "analysis/design/distribution.hpp"
+#include "question/series/distribution.hpp"
 
 namespace gearlash {
 namespace {
@@ -332,7 +332,7 @@ Measured SectionReader::read(const std::string& key, const toml::node& value,
                                      ? read_toleranced(name, value, read_exact)
                                      : TolerancedValue{read_exact(name, value), std::nullopt};
     if (read.distribution) {
-      require_none(validate(*read.distribution, name));
+      require_none(faults(*read.distribution, name));
       tolerances_->push_back({name, *read.distribution});
     }
     findings_.remember(name, value);

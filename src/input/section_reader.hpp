@@ -29,9 +29,9 @@ class Findings {
   void refuse(Place place, const std::string& field, const std::string& value,
               const std::string& permitted);
 
-  /// Records where the value of `field` stands, to locate a fault that validate() may find in it.
+  /// Records where the value of `field` stands, to locate a fault that faults() may find in it.
   void remember(const std::string& field, const toml::node& value) { values_[field] = &value; }
-  /// Adds the faults that validate() found. Each is located at the value remembered under the name
+  /// Adds the faults that faults() found. Each is located at the value remembered under the name
   /// that `field_of` returns. A fault of no single value follows from several: it is located at
   /// `otherwise`, and is added only if every value could be read, because placeholders could have
   /// caused it.

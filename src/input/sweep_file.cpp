@@ -2,12 +2,12 @@
 
 #include <set>
 
-#include "analysis/grid/grid_evaluation.hpp"
 #include "input/axis_text.hpp"
 #include "input/drive_reader.hpp"
 #include "input/section_reader.hpp"
 #include "input/text_file.hpp"
 #include "input/toml_document.hpp"
+#include "question/map/grid_evaluation.hpp"
 
 namespace gearlash {
 namespace {

@@ -54,10 +54,10 @@ void inspect(RangeCheck& check, const LeadLag& controller) {
 }
 
 void expect_proper(RangeCheck& check, const TransferFunction& function) {
-  std::vector<Fault> faults = validate(function);
-  for (Fault& fault : faults) fault.path = "controller." + fault.path;
-  check.include(faults);
-  if (!faults.empty()) return;
+  std::vector<Fault> found = faults(function);
+  for (Fault& fault : found) fault.path = "controller." + fault.path;
+  check.include(found);
+  if (!found.empty()) return;
   const std::size_t numerator = without_leading_zeros(function.numerator).size();
   const std::size_t denominator = without_leading_zeros(function.denominator).size();
   expect_permitted_order(check, "denominator", denominator - 1);
@@ -115,7 +115,7 @@ void inspect(RangeCheck& check, const LinearController& controller) {
 
 }  // namespace
 
-std::vector<Fault> validate(const Controller& controller) {
+std::vector<Fault> faults(const Controller& controller) {
   RangeCheck check("controller.");
   std::visit([&](const auto& one) { inspect(check, one); }, controller);
   return check.faults();

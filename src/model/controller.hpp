@@ -153,9 +153,9 @@ using Controller = ControllerOf<double>;
 
 /// Every fault in the ranges above, in shapes that do not agree, and of a transfer function that is
 /// not proper. Gains may have any sign; the user decides what they do.
-std::vector<Fault> validate(const Controller& controller);
+std::vector<Fault> faults(const Controller& controller);
 
-/// Precondition: validate(controller) is empty. A SampledTransfer is one from sample to sample,
+/// Precondition: faults(controller) is empty. A SampledTransfer is one from sample to sample,
 /// sampled_controller().
 LinearController linear_controller(const Controller& controller);
 /// Contains that of every controller within. Its order may be higher than that of one of them: it
@@ -222,7 +222,7 @@ Number of_both(const std::vector<Number>& row) {
 
 /// Whether a position that stands beside the reference leaves no state of the controller standing,
 /// within the torque limit: 0 = state_matrix z + input_matrix (0, y, 0) has no solution for y ≠ 0.
-/// Sampling by any method keeps that. Precondition: validate(controller) is empty.
+/// Sampling by any method keeps that. Precondition: faults(controller) is empty.
 bool integrates(const Controller& controller);
 
 /// The largest modulus of an eigenvalue of the state matrix; 0 without states.

@@ -49,7 +49,7 @@ std::string pole_text(double radius) {
 /// Checks the poles, which do not depend on numerator and period.
 void check_poles(RangeCheck& all, const SampledTransfer& controller) {
   const SampledTransfer poles{{1.0}, controller.denominator};
-  if (!validate(Controller(poles)).empty()) return;
+  if (!faults(Controller(poles)).empty()) return;
   const double radius = spectral_radius(linear_controller(poles));
   if (radius <= largest_radius) return;
   all.refuse("controller.denominator", pole_text(radius),
@@ -78,7 +78,7 @@ void check_sampling(RangeCheck& all, const ReducedDrive& drive) {
   }
   all.include(check.faults());
   const bool is_reported = of_samples != nullptr || !check.faults().empty();
-  if (is_reported || !validate(drive.controller).empty()) return;
+  if (is_reported || !faults(drive.controller).empty()) return;
   const double radius = spectral_radius(sampled_controller(drive.controller, sampling));
   if (radius <= largest_radius) return;
   const std::string pole = pole_text(radius);
@@ -95,7 +95,7 @@ bool is_driven(const ReducedDrive& drive) {
          std::holds_alternative<Sine>(settled(drive.load_torque));
 }
 
-std::vector<Fault> validate(const ReducedDrive& drive) {
+std::vector<Fault> faults(const ReducedDrive& drive) {
   RangeCheck all;
   check(all, "motor", drive.motor);
   check(all, "load", drive.load);
@@ -115,7 +115,7 @@ std::vector<Fault> validate(const ReducedDrive& drive) {
              drive.contact);
   all.within("sensing.load_share_of_position", drive.sensing.load_share_of_position, 0.0, 1.0);
   all.within("sensing.load_share_of_speed", drive.sensing.load_share_of_speed, 0.0, 1.0);
-  all.include(validate(drive.controller));
+  all.include(faults(drive.controller));
   if (!(drive.torque_limit > 0.0)) {
     all.refuse("torque_limit", exact_text(drive.torque_limit), "must be positive, N m");
   }
@@ -134,8 +134,8 @@ std::vector<Fault> validate(const ReducedDrive& drive) {
   if (drive.sensing.resolution_of_speed != drive.sensing.resolution) {  // else it is one encoder
     all.not_negative("sensing.resolution_of_speed", drive.sensing.resolution_of_speed, "rad");
   }
-  all.include(validate(drive.reference, "reference"));
-  all.include(validate(drive.load_torque, "load_torque"));
+  all.include(faults(drive.reference, "reference"));
+  all.include(faults(drive.load_torque, "load_torque"));
   all.finite("gravity.torque", drive.gravity.torque);
   all.finite("gravity.stiffness", drive.gravity.stiffness);
   check_sampling(all, drive);

@@ -241,6 +241,6 @@ inline bool has_linear_control(const ReducedDrive& drive) {
 bool is_driven(const ReducedDrive& drive);
 
 /// Every fault in the ranges above.
-std::vector<Fault> validate(const ReducedDrive& drive);
+std::vector<Fault> faults(const ReducedDrive& drive);
 
 }  // namespace gearlash::drive

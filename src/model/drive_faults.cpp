@@ -14,7 +14,7 @@
 namespace gearlash {
 namespace {
 
-/// The path of a parameter by its name in drive::validate().
+/// The path of a parameter by its name in drive::faults().
 std::string path_of(const std::string& name) {
   static const std::vector<std::pair<std::string, std::string>> names = {
       {"motor.viscous", "motor.friction"},
@@ -64,7 +64,7 @@ void check_number(RangeCheck& check, const Parameter& parameter, double value,
     case Permitted::share:
       check.within(parameter.path, value, 0.0, 1.0);
       break;
-    case Permitted::of_normal_form:  // validate(NormalizedServo) knows it
+    case Permitted::of_normal_form:  // faults(NormalizedServo) knows it
       break;
   }
 }
@@ -107,7 +107,7 @@ void check_normal_form(RangeCheck& check, const Drive& drive) {
                               .friction_ratio = form.friction_ratio,
                               .backlash = form.backlash,
                               .restitution = rigid == nullptr ? 0.0 : rigid->restitution};
-  for (Fault fault : validate(servo)) {
+  for (Fault fault : faults(servo)) {
     if (fault.path == "restitution") continue;  // checked as a share
     fault.path = "servo." + fault.path;
     check.include({fault});
@@ -161,7 +161,7 @@ void check_error_shape(RangeCheck& check, const Drive& drive) {
 
 void check_gravity(RangeCheck& check, const Drive& drive) {
   if (drive.servo || drive.load.gravity == 0.0 || !drive.reference) return;
-  if (!drive::validate(*drive.reference, "reference").empty()) return;
+  if (!drive::faults(*drive.reference, "reference").empty()) return;
   if (!std::holds_alternative<RampSignal>(drive::settled(*drive.reference))) return;
   check.refuse("load.gravity", exact_text(drive.load.gravity) + " N m",
                "must be 0 with a reference that is a ramp: gravity is linearised about the angle "
@@ -183,7 +183,7 @@ std::optional<double> holding_friction(const drive::ReducedDrive& drive) {
 void check_encoder(RangeCheck& check, const Drive& drive, const drive::ReducedDrive& reduced) {
   const double step = reduced.sensing.resolution;
   if (drive.sampling || !(step > 0.0) || reduced.winding.time_constant > 0.0) return;
-  if (!validate(reduced.controller).empty()) return;
+  if (!faults(reduced.controller).empty()) return;
   const std::optional<double> held = holding_friction(reduced);
   const drive::ErrorShape& shape = reduced.error_shape;
   if (shape.is_relay() && step <= shape.begins - shape.ends) return;  // its hysteresis holds it
@@ -219,7 +219,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 4> given = {
      {"load_inertia", "load.inertia"}}};
 
 std::vector<Fault> servo_faults(const Drivetrain& drivetrain) {
-  std::vector<Fault> found = validate(drivetrain);
+  std::vector<Fault> found = faults(drivetrain);
   for (Fault& fault : found) {
     for (const Origin& origin : origins) {
       if (fault.path == origin.number) fault.permitted += "; it is " + std::string(origin.made_of);
@@ -354,14 +354,14 @@ std::vector<Fault> faults_of_size(const Drive& drive) {
 /// Rules that join several numbers.
 std::vector<Fault> joint_faults(const Drive& drive) {
   const drive::ReducedDrive reduced = reduce(drive);
-  if (must_be_a_servo(drive, reduced) && validate(reduced.controller).empty()) {
+  if (must_be_a_servo(drive, reduced) && faults(reduced.controller).empty()) {
     if (const auto drivetrain = drive::proportional_drivetrain(reduced)) {
       return servo_faults(*drivetrain);
     }
   }
   std::vector<Fault> found = faults_of_size(drive);
   if (!found.empty()) return found;
-  found = drive::validate(reduced);
+  found = drive::faults(reduced);
   if (found.empty()) {
     RangeCheck encoder;
     check_encoder(encoder, drive, reduced);

@@ -7,7 +7,7 @@
 namespace gearlash {
 namespace {
 
-std::vector<Fault> validate_masses_and_stiffness(const Drivetrain& drivetrain) {
+std::vector<Fault> faults_of_masses_and_stiffness(const Drivetrain& drivetrain) {
   RangeCheck check;
   check.not_negative("motor_inertia", drivetrain.motor_inertia, "kg m2");
   check.not_negative("load_inertia", drivetrain.load_inertia, "kg m2");
@@ -28,16 +28,16 @@ std::vector<Fault> validate_masses_and_stiffness(const Drivetrain& drivetrain) {
 
 }  // namespace
 
-std::vector<Fault> validate(const Drivetrain& drivetrain) {
+std::vector<Fault> faults(const Drivetrain& drivetrain) {
   RangeCheck check;
-  check.include(validate_masses_and_stiffness(drivetrain));
+  check.include(faults_of_masses_and_stiffness(drivetrain));
   // Ratios of unsound inertias mean nothing. The fields that are passed on are checked in any case.
   const bool sound = check.faults().empty();
   NormalizedServo servo = sound ? normalize_sound(drivetrain) : NormalizedServo{};
   servo.backlash = drivetrain.backlash;
   servo.restitution = drivetrain.restitution;
   servo.sensor = drivetrain.sensor;
-  check.include(validate(servo));
+  check.include(faults(servo));
   return check.faults();
 }
 
@@ -61,7 +61,7 @@ double natural_frequency(const Drivetrain& drivetrain) {
 }
 
 NormalizedServo normalize(const Drivetrain& drivetrain) {
-  require_none(validate(drivetrain));
+  require_none(faults(drivetrain));
   return normalize_sound(drivetrain);
 }
 

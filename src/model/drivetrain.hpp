@@ -22,7 +22,7 @@ struct DrivetrainOf {
 using Drivetrain = DrivetrainOf<double>;
 
 /// Every fault in the ranges above and in those of the normalised servo.
-std::vector<Fault> validate(const Drivetrain& drivetrain);
+std::vector<Fault> faults(const Drivetrain& drivetrain);
 
 /// ω_n = √(K/(J_M+J_L)), rad/s.
 double natural_frequency(const Drivetrain& drivetrain);

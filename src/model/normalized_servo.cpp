@@ -45,7 +45,7 @@ std::string permitted_values(std::string_view field) {
   return "";
 }
 
-std::vector<Fault> validate(const NormalizedServo& servo) {
+std::vector<Fault> faults(const NormalizedServo& servo) {
   RangeCheck check;
   const auto require = [&](bool permitted, const char* field, double value) {
     if (!permitted) check.refuse(field, exact_text(value), "must be " + permitted_values(field));

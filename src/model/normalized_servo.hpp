@@ -34,6 +34,6 @@ std::string permitted_values(std::string_view field);
 /// (inertia_ratio 0) needs load friction, and a massless motor (infinity) needs motor friction,
 /// because a shaft with neither inertia nor friction has no law of motion in the gap.
 /// ShaftName::motor is refused. Empty for a sound servo.
-std::vector<Fault> validate(const NormalizedServo& servo);
+std::vector<Fault> faults(const NormalizedServo& servo);
 
 }  // namespace gearlash

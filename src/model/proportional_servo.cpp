@@ -30,7 +30,7 @@ bool is_smooth(const ReducedDrive& drive) {
 
 std::optional<Drivetrain> proportional_servo(const ReducedDrive& drive) {
   const std::optional<Drivetrain> drivetrain = proportional_drivetrain(drive);
-  return drivetrain && validate(*drivetrain).empty() ? drivetrain : std::nullopt;
+  return drivetrain && faults(*drivetrain).empty() ? drivetrain : std::nullopt;
 }
 
 std::optional<Drivetrain> proportional_drivetrain(const ReducedDrive& drive) {

@@ -153,7 +153,7 @@ std::optional<ClosedFormServo> closed_form_servo(const Drive& drive) {
   const std::optional<Drivetrain> drivetrain = drive::proportional_drivetrain(reduce(drive));
   if (!drivetrain) return std::nullopt;
   if (!drive.servo) {
-    if (!validate(*drivetrain).empty()) return std::nullopt;
+    if (!faults(*drivetrain).empty()) return std::nullopt;
     return ClosedFormServo{normalize_sound(*drivetrain), natural_frequency(*drivetrain), false};
   }
   return normal_form_servo(drive);

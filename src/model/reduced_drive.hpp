@@ -95,7 +95,7 @@ std::optional<Drivetrain> proportional_drivetrain(const Drive& drive);
 
 /// Its drivetrain for one that is known to have a closed form, without checks:
 ///   J_M = (J + J_G) n²,  F_M = (f + E) n² + S d,  K = S g,  S = gain_scale()
-///   (model/drivetrain_slopes.hpp).
+///   (model/drivetrain_derivatives.hpp).
 /// Nothing is allocated if the controller is P, PD or a cascade.
 Drivetrain referred_drivetrain(const Drive& drive);
 

@@ -410,7 +410,7 @@ class Reduction {
   drive::GravityOf<Number> gravity() const {
     if (drive_.servo || drive_.load.gravity == 0.0) return {};
     const Signal reference = drive_.reference.value_or(0.0);
-    if (!drive::validate(reference, "reference").empty()) return {};  // such as an empty table
+    if (!drive::faults(reference, "reference").empty()) return {};  // such as an empty table
     const Number at = datum_(drive::middle_of(drive::settled(reference)));
     const Number angle = datum_(drive_.load.gravity_angle) + at;
     const Number weight = datum_(drive_.load.gravity);

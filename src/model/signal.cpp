@@ -131,7 +131,7 @@ void inspect(RangeCheck& check, const Table& table) {
 
 }  // namespace
 
-std::vector<Fault> validate(const Signal& signal, const std::string& field) {
+std::vector<Fault> faults(const Signal& signal, const std::string& field) {
   RangeCheck check(field + ".");
   std::visit([&](const auto& one) { inspect(check, one); }, signal);
   return check.faults();

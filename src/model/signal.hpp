@@ -23,9 +23,9 @@ using gearlash::Signal;
 inline constexpr std::size_t most_rows_of_a_table = 1'000'000;
 
 /// Every fault in the ranges of gearlash/signal.hpp; `field` is the signal's name.
-std::vector<Fault> validate(const Signal& signal, const std::string& field);
+std::vector<Fault> faults(const Signal& signal, const std::string& field);
 
-/// The other functions require that validate(signal) is empty.
+/// The other functions require that faults(signal) is empty.
 double value_at(const Signal& signal, double time);
 
 /// The signal's final behaviour: a sine itself; a ramp with its start moved to time 0; otherwise

@@ -180,7 +180,7 @@ void subtract(Bounds& sum, const Bounds& term) {
 
 }  // namespace
 
-std::vector<Fault> validate(const TransferFunction& transfer) {
+std::vector<Fault> faults(const TransferFunction& transfer) {
   RangeCheck check;
   check_polynomial(check, "numerator", transfer.numerator);
   check_polynomial(check, "denominator", transfer.denominator);
@@ -199,7 +199,7 @@ FrequencyResponse frequency_response(const TransferFunction& transfer, double fr
 }
 
 FactoredTransferFunction factored(const TransferFunction& transfer) {
-  require_none(validate(transfer));
+  require_none(faults(transfer));
   const double gain = stripped(transfer.numerator).coefficients.front() /
                       stripped(transfer.denominator).coefficients.front();
   return {gain, roots_of(transfer.numerator), roots_of(transfer.denominator), transfer.delay};

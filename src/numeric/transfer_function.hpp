@@ -28,7 +28,7 @@ using TransferFunction = TransferFunctionOf<double>;
 
 /// Faults: coefficients that are not finite, polynomials whose coefficients are all 0, a delay that
 /// is negative or not finite.
-std::vector<Fault> validate(const TransferFunction& transfer);
+std::vector<Fault> faults(const TransferFunction& transfer);
 
 /// G(jω) and d ln G(jω)/dω, whose parts are the slopes of ln|G| and of the phase.
 struct FrequencyResponse {

@@ -1,6 +1,5 @@
 #include <cmath>
 
-#include "analysis/repetition.hpp"
 #include "gearlash/output.hpp"
 #include "output/answer_report.hpp"
 #include "output/ceiling_report.hpp"
@@ -8,6 +7,7 @@
 #include "output/drive_text.hpp"
 #include "output/json_values.hpp"
 #include "output/measured_report.hpp"
+#include "question/repetition.hpp"
 
 namespace gearlash {
 namespace {

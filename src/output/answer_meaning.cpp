@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/repetition.hpp"
 #include "model/reduced_drive.hpp"
+#include "question/repetition.hpp"
 
 namespace gearlash {
 namespace {

@@ -9,7 +9,6 @@
 #include <ostream>
 #include <vector>
 
-#include "analysis/repetition.hpp"
 #include "gearlash/output.hpp"
 #include "gearlash/version.hpp"
 #include "model/gains.hpp"
@@ -19,6 +18,7 @@
 #include "output/change_report.hpp"
 #include "output/columns.hpp"
 #include "output/measured_report.hpp"
+#include "question/repetition.hpp"
 
 namespace gearlash {
 namespace {

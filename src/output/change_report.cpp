@@ -7,10 +7,10 @@
 #include <functional>
 #include <numeric>
 
-#include "analysis/grid/axis.hpp"
 #include "output/columns.hpp"
 #include "output/json_values.hpp"
 #include "output/parameter_text.hpp"
+#include "question/axis.hpp"
 
 namespace gearlash {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/grid/axis.hpp"
 #include "gearlash/comparison.hpp"
 #include "output/report_units.hpp"
+#include "question/axis.hpp"
 
 namespace gearlash {
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "analysis/describing/describing.hpp"
 #include "gearlash/answer.hpp"
 #include "gearlash/drive.hpp"
 #include "output/report_units.hpp"
+#include "question/loop/describing/describing.hpp"
 
 namespace gearlash {
 

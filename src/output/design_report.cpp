@@ -7,15 +7,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/design/proved_values.hpp"
-#include "analysis/design/target.hpp"
-#include "analysis/design/toleranced_drive.hpp"
-#include "analysis/grid/axis.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/columns.hpp"
 #include "output/drive_text.hpp"
 #include "output/json_values.hpp"
 #include "output/parameter_text.hpp"
+#include "question/axis.hpp"
+#include "question/change/proved_values.hpp"
+#include "question/change/target.hpp"
+#include "question/series/toleranced_drive.hpp"
 
 namespace gearlash {
 namespace {

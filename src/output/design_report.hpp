@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "analysis/design/drive_with_value.hpp"
-#include "analysis/design/target.hpp"
 #include "gearlash/design.hpp"
 #include "output/report_units.hpp"
+#include "question/change/drive_with_value.hpp"
+#include "question/change/target.hpp"
 
 namespace gearlash {
 

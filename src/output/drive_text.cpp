@@ -5,7 +5,6 @@
 #include <cmath>
 #include <sstream>
 
-#include "analysis/drive_notes.hpp"
 #include "base/decimal.hpp"
 #include "base/range_check.hpp"
 #include "general/assemble/time_scale.hpp"
@@ -16,6 +15,7 @@
 #include "model/reduced_drive.hpp"
 #include "output/columns.hpp"
 #include "output/json_values.hpp"
+#include "question/drive_notes.hpp"
 
 namespace gearlash {
 namespace {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "analysis/grid/grid_evaluation.hpp"
 #include "gearlash/parameter.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/grid_table.hpp"
 #include "output/json_values.hpp"
+#include "question/map/grid_evaluation.hpp"
 
 namespace gearlash {
 namespace {

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "analysis/grid/grid_pieces.hpp"
-#include "analysis/grid/region_boundary.hpp"
 #include "output/grid_description.hpp"
 #include "output/grid_netcdf_file.hpp"
 #include "output/writing_process.hpp"
+#include "question/map/grid_pieces.hpp"
+#include "question/map/region_boundary.hpp"
 
 namespace gearlash {
 

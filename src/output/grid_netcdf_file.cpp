@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/grid/hunting_boundary.hpp"
+#include "question/map/hunting_boundary.hpp"
 
 namespace gearlash {
 namespace {

@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/grid/grid_pieces.hpp"
-#include "analysis/grid/region_boundary.hpp"
 #include "output/grid_description.hpp"
 #include "output/netcdf_file.hpp"
 #include "output/output_file.hpp"
+#include "question/map/grid_pieces.hpp"
+#include "question/map/region_boundary.hpp"
 
 namespace gearlash {
 

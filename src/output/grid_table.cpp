@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/grid/hunting_boundary.hpp"
 #include "output/csv_table.hpp"
 #include "output/drive_text.hpp"
 #include "output/json_values.hpp"
+#include "question/map/hunting_boundary.hpp"
 
 namespace gearlash {
 namespace {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "analysis/grid/grid_points.hpp"
-#include "analysis/grid/motion_regions.hpp"
 #include "output/output_file.hpp"
 #include "output/report_units.hpp"
+#include "question/map/grid_points.hpp"
+#include "question/map/motion_regions.hpp"
 
 namespace gearlash {
 

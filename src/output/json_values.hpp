@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "analysis/design/target.hpp"
-#include "analysis/grid/axis.hpp"
 #include "gearlash/bounds.hpp"
+#include "question/axis.hpp"
+#include "question/change/target.hpp"
 
 namespace gearlash {
 

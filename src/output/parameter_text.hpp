@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "analysis/grid/axis.hpp"
 #include "gearlash/answer.hpp"
 #include "output/report_units.hpp"
+#include "question/axis.hpp"
 
 namespace gearlash {
 

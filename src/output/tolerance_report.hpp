@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/design/worst_corner.hpp"
 #include "gearlash/tolerance.hpp"
 #include "output/report_units.hpp"
+#include "question/series/worst_corner.hpp"
 
 namespace gearlash {
 

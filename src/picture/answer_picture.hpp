@@ -1,9 +1,9 @@
 // The motions of an answer of either engine, for pictures.
 #pragma once
 
-#include "analysis/analyse.hpp"
 #include "output/answer_report.hpp"
 #include "picture/motion_picture.hpp"
+#include "question/analyse.hpp"
 
 namespace gearlash {
 

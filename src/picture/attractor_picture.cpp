@@ -6,10 +6,10 @@
 #include <cmath>
 #include <vector>
 
-#include "analysis/motion.hpp"
 #include "model/reduced_drive.hpp"
 #include "model/signal.hpp"
 #include "output/report_units.hpp"
+#include "question/motion.hpp"
 
 namespace gearlash {
 namespace {

@@ -4,10 +4,10 @@
 #include <optional>
 #include <string>
 
-#include "analysis/grid/bifurcations.hpp"
 #include "gearlash/grid.hpp"
 #include "input/units.hpp"
 #include "picture/picture.hpp"
+#include "question/map/bifurcations.hpp"
 
 namespace gearlash {
 

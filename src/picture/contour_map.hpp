@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/grid/contours.hpp"
 #include "picture/line_chart.hpp"
+#include "question/map/contours.hpp"
 
 namespace gearlash {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/grid/grid_evaluation.hpp"
-#include "analysis/grid/hunting_end.hpp"
 #include "picture/grid_words.hpp"
 #include "picture/hunting_curve.hpp"
+#include "question/map/grid_evaluation.hpp"
+#include "question/map/hunting_end.hpp"
 
 namespace gearlash {
 namespace {

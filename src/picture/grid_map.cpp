@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/grid/grid_evaluation.hpp"
-#include "analysis/grid/hunting_boundary.hpp"
 #include "picture/cell_map.hpp"
 #include "picture/grid_words.hpp"
 #include "picture/hatching.hpp"
+#include "question/map/grid_evaluation.hpp"
+#include "question/map/hunting_boundary.hpp"
 
 namespace gearlash {
 namespace {

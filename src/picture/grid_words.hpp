@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "analysis/grid/axis.hpp"
 #include "input/units.hpp"
 #include "picture/line_chart.hpp"
+#include "question/axis.hpp"
 
 namespace gearlash {
 

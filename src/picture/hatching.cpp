@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "analysis/grid/hunting_boundary.hpp"
+#include "question/map/hunting_boundary.hpp"
 
 namespace gearlash {
 namespace {

@@ -1,6 +1,6 @@
 #include "picture/hunting_curve.hpp"
 
-#include "analysis/grid/hunting_end.hpp"
+#include "question/map/hunting_end.hpp"
 
 namespace gearlash {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/describing/harmonic_balance.hpp"
 #include "base/overloaded.hpp"
+#include "question/loop/describing/harmonic_balance.hpp"
 
 namespace gearlash {
 namespace {

@@ -5,8 +5,8 @@
 #include <functional>
 #include <vector>
 
-#include "analysis/describing/describing_function.hpp"
 #include "numeric/transfer_function.hpp"
+#include "question/loop/describing/describing_function.hpp"
 
 namespace gearlash {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/describing/describing.hpp"
 #include "input/units.hpp"
 #include "picture/picture.hpp"
+#include "question/loop/describing/describing.hpp"
 
 namespace gearlash {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "analysis/grid/region_boundary.hpp"
 #include "picture/line_chart.hpp"
+#include "question/map/region_boundary.hpp"
 
 namespace gearlash {
 

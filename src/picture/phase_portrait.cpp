@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/motion.hpp"
 #include "general/attractors/search_setting.hpp"
+#include "question/motion.hpp"
 
 namespace gearlash {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "analysis/grid/basins.hpp"
 #include "general/attractors/attractors.hpp"
 #include "picture/motion_picture.hpp"
+#include "question/map/basins.hpp"
 
 namespace gearlash {
 

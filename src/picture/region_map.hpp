@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "analysis/design/feasible_region.hpp"
 #include "output/report_units.hpp"
 #include "picture/contour_map.hpp"
+#include "question/change/feasible_region.hpp"
 
 namespace gearlash {
 

@@ -61,7 +61,7 @@ const std::vector<DesignChart1960>& design_charts_1960() {
 }
 
 ChartReading read_chart(const NormalizedServo& servo) {
-  require_none(validate(servo));
+  require_none(faults(servo));
   const auto& charts = design_charts_1960();
   const std::vector<double>& ratios = charts.front().inertia_ratios;
   RangeCheck check;

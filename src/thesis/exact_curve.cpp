@@ -7,9 +7,7 @@
 namespace gearlash::thesis {
 namespace {
 
-bool has_gap(const NormalizedServo& servo) {
-  return validate(servo).empty() && servo.backlash > 0.0;
-}
+bool has_gap(const NormalizedServo& servo) { return faults(servo).empty() && servo.backlash > 0.0; }
 
 }  // namespace
 

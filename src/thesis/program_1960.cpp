@@ -7,7 +7,7 @@
 namespace gearlash::thesis {
 
 ProgramParameters program_parameters(const NormalizedServo& servo) {
-  require_none(validate(servo));
+  require_none(faults(servo));
   RangeCheck check;
   if (servo.inertia_ratio == 0.0 || std::isinf(servo.inertia_ratio)) {
     check.refuse("inertia_ratio", exact_text(servo.inertia_ratio),

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks the include rule: a room includes only the rooms that stand before it in this list.
 
-    base, numeric, model, hybrid, closed_form, general, analysis, input, output, picture, thesis
+    base, numeric, model, hybrid, closed_form, general, question, input, output, picture, thesis
 
 hybrid knows nothing of gears: it includes only base and numeric. closed_form and general do not
 know each other. No room includes thesis. Nothing before input prints, reads files or looks at
@@ -15,7 +15,7 @@ import pathlib
 import re
 import sys
 
-NUMERICS = ("base", "numeric", "model", "hybrid", "closed_form", "general", "analysis")
+NUMERICS = ("base", "numeric", "model", "hybrid", "closed_form", "general", "question")
 MODEL = {"base", "numeric", "model"}
 
 # Room -> the other rooms that it may include.
@@ -26,7 +26,7 @@ PERMITTED_ROOMS = {
     "hybrid": {"base", "numeric"},
     "closed_form": MODEL,
     "general": MODEL | {"hybrid"},
-    "analysis": MODEL | {"hybrid", "closed_form", "general"},
+    "question": MODEL | {"hybrid", "closed_form", "general"},
     "input": set(NUMERICS),
     "output": set(NUMERICS) | {"input"},
     "picture": set(NUMERICS) | {"input", "output"},
@@ -45,7 +45,7 @@ PERMITTED_LIBRARIES = {
     "closed_form": ("boost/math/", "boost/multiprecision/", MATRICES,
                     "unsupported/Eigen/AutoDiff", "xsimd/"),
     "general": ("boost/math/", "boost/multiprecision/", MATRICES),
-    "analysis": ("boost/math/", "boost/multiprecision/", "boost/random/", MATRICES, "tbb/"),
+    "question": ("boost/math/", "boost/multiprecision/", "boost/random/", MATRICES, "tbb/"),
 }
 
 PRINTS_OR_READS = {

@@ -41,7 +41,7 @@ class IncludeRule(unittest.TestCase):
                                         '#include "closed_form/roots.hpp"\n'
                                         '#include "model/shaft.hpp"\n'
                                         '#include <gearlash/drive.hpp>\n',
-            "src/analysis/grid/axis.hpp": '#include "closed_form/lanes/batch.hpp"\n',
+            "src/question/axis.hpp": '#include "closed_form/lanes/batch.hpp"\n',
             "src/input/reader.cpp": '#include <fstream>\n#include "model/shaft.hpp"\n',
             "src/thesis/run.hpp": '#include "input/reader.hpp"\n',
         })
@@ -49,7 +49,7 @@ class IncludeRule(unittest.TestCase):
     def test_a_room_may_not_include_a_later_one(self):
         self.assert_refused("src/model/shaft.cpp",
                             '#include <cmath>\n#include "closed_form/flow.hpp"\n', line=2)
-        self.assert_refused("src/analysis/grid/map.hpp", '#include "input/reader.hpp"\n')
+        self.assert_refused("src/question/map/map.hpp", '#include "input/reader.hpp"\n')
         self.assert_refused("src/base/root.cpp", '  #  include <closed_form/flow.hpp>\n')
 
     def test_hybrid_knows_nothing_of_gears(self):

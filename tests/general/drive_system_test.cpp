@@ -101,9 +101,9 @@ TEST(EdgeDriveSystem, FaultsAreToldAllAtOnce) {
   }
   ReducedDrive without_gap = modelica_backlash(ContactDamping::full);
   without_gap.backlash = 0.0;
-  EXPECT_TRUE(validate(without_gap).empty());
+  EXPECT_TRUE(faults(without_gap).empty());
   without_gap.contact = RigidContact{};
-  EXPECT_EQ(validate(without_gap).size(), 1U);
+  EXPECT_EQ(faults(without_gap).size(), 1U);
 }
 
 }  // namespace

@@ -138,10 +138,10 @@ TEST(EdgeErrorShape, ThatMaySwitchWithoutEndIsRefused) {
   ReducedDrive drive = lone_motor(motor);
   drive.controller = ProportionalDerivative{.proportional = 4.0};
   drive.error_shape = relay(0.1, 0.0);
-  ASSERT_EQ(validate(drive).size(), 1U);
-  EXPECT_EQ(validate(drive)[0].path, "error_shape.hysteresis");
+  ASSERT_EQ(faults(drive).size(), 1U);
+  EXPECT_EQ(faults(drive)[0].path, "error_shape.hysteresis");
   drive.sampling = Sampling{.period = 0.01};
-  EXPECT_TRUE(validate(drive).empty());
+  EXPECT_TRUE(faults(drive).empty());
 }
 
 }  // namespace

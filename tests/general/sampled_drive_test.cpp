@@ -236,7 +236,7 @@ TEST(OracleSampledController, IsTheContinuousOneWithAnotherDerivative) {
 TEST(EdgeSampledDrive, FaultsAreToldAllAtOnce) {
   const auto fields_of = [](const ReducedDrive& drive) {
     std::vector<std::string> fields;
-    for (const Fault& fault : validate(drive)) fields.push_back(fault.path);
+    for (const Fault& fault : faults(drive)) fields.push_back(fault.path);
     return fields;
   };
   ReducedDrive drive = drawn_motor();
@@ -254,7 +254,7 @@ TEST(EdgeSampledDrive, FaultsAreToldAllAtOnce) {
   // A filter that forward differences cannot follow: 1 − T/T_f < −1.
   drive.controller =
       ProportionalIntegralDerivative{.proportional = 1.0, .derivative = 1.0, .filter = 0.04};
-  EXPECT_TRUE(validate(drive).empty());
+  EXPECT_TRUE(faults(drive).empty());
   drive.sampling->method = Discretization::forward;
   EXPECT_EQ(fields_of(drive), std::vector<std::string>{"sampling.period"});
   EXPECT_THROW(drive_system(drive), InvalidInput);

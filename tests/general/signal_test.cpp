@@ -43,13 +43,13 @@ TEST(OracleSignal, ATrapezoidAcceleratesCruisesAndBrakes) {
 }
 
 TEST(EdgeSignal, FaultsAreNamed) {
-  const auto faults = validate(Table{{0.0, 2.0, 1.0, 1.0}, {0.0, 0.0, 0.0, 0.0}}, "reference");
-  ASSERT_EQ(faults.size(), 2U);
-  EXPECT_EQ(faults[0].path, "reference.times[2]");
-  EXPECT_NE(faults[0].permitted.find("later than the time before it"), std::string::npos);
-  EXPECT_EQ(validate(Table{{0.0}, {}}, "reference").size(), 1U);
-  EXPECT_EQ(validate(Trapezoid{}, "reference").size(), 2U);
-  EXPECT_EQ(validate(Sine{}, "reference").size(), 1U);
+  const auto found = faults(Table{{0.0, 2.0, 1.0, 1.0}, {0.0, 0.0, 0.0, 0.0}}, "reference");
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].path, "reference.times[2]");
+  EXPECT_NE(found[0].permitted.find("later than the time before it"), std::string::npos);
+  EXPECT_EQ(faults(Table{{0.0}, {}}, "reference").size(), 1U);
+  EXPECT_EQ(faults(Trapezoid{}, "reference").size(), 2U);
+  EXPECT_EQ(faults(Sine{}, "reference").size(), 1U);
 }
 
 /// The shortest way that reaches the speed has no cruise, but for rounding.

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "analysis/analyse.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
 #include "input/drive_file.hpp"
 #include "input/text_of_drive.hpp"
 #include "model/firmware.hpp"
 #include "model/reduced_drive.hpp"
+#include "question/analyse.hpp"
 
 namespace gearlash::firmware_file_test {
 namespace {

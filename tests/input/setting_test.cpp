@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string>
 
-#include "analysis/faults_of.hpp"
 #include "gearlash/parameter.hpp"
 #include "input/drive_file.hpp"
+#include "question/faults_of.hpp"
 
 namespace gearlash::setting_test {
 namespace {

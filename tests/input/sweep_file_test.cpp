@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "analysis/faults_of.hpp"
+#include "question/faults_of.hpp"
 
 namespace gearlash::sweep_file_test {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/faults_of.hpp"
 #include "gearlash/input.hpp"
+#include "question/faults_of.hpp"
 
 namespace gearlash::target_text_test {
 namespace {

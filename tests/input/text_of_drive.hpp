@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/faults_of.hpp"
 #include "input/drive_file.hpp"
+#include "question/faults_of.hpp"
 
 namespace gearlash::test {
 

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "analysis/faults_of.hpp"
+#include "question/faults_of.hpp"
 
 namespace gearlash::units_test {
 namespace {

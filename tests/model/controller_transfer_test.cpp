@@ -103,10 +103,10 @@ TEST(OracleController, HasTheTransferFunctionOfItsName) {
 
 TEST(EdgeController, AnImproperTransferFunctionIsRefused) {
   const ErrorTransfer improper{{{1.0, 0.0, 0.0}, {1.0, 1.0}}};
-  const auto faults = validate(Controller(improper));
-  ASSERT_EQ(faults.size(), 1U);
-  EXPECT_EQ(faults[0].path, "controller.numerator");
-  EXPECT_EQ(validate(Controller(LeadLag{1.0, 0.0, -1.0})).size(), 2U);
+  const auto found = faults(Controller(improper));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].path, "controller.numerator");
+  EXPECT_EQ(faults(Controller(LeadLag{1.0, 0.0, -1.0})).size(), 2U);
 }
 
 TEST(IntegralAction, IsAPoleAtZeroThatThePositionMoves) {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "gearlash/parameter.hpp"
-#include "model/drivetrain_slopes.hpp"
+#include "model/drivetrain_derivatives.hpp"
 #include "model/gains.hpp"
 #include "model/parameters.hpp"
 #include "model/reduced_drive.hpp"

@@ -59,7 +59,7 @@ TEST(EdgeNormalizedServoRanges, EndsArePermitted) {
     for (const double value : values) {
       NormalizedServo servo = sound_servo();
       servo.*member = value;
-      EXPECT_THAT(validate(servo), IsEmpty()) << value;
+      EXPECT_THAT(faults(servo), IsEmpty()) << value;
     }
   };
   permitted(&NormalizedServo::damping, {0.0, 1e-15, 1e3});
@@ -73,7 +73,7 @@ TEST(EdgeNormalizedServoRanges, OneStepBeyondIsRefused) {
   const auto refused = [](auto member, double value, const char* name) {
     NormalizedServo servo = sound_servo();
     servo.*member = value;
-    EXPECT_THAT(fields(validate(servo)), ElementsAre(name)) << value;
+    EXPECT_THAT(fields(faults(servo)), ElementsAre(name)) << value;
   };
   const double below_zero = -5e-324;
   const double above_one = std::nextafter(1.0, 2.0);
@@ -99,15 +99,15 @@ TEST(EdgeNormalizedServoRanges, MasslessShaftsNeedFriction) {
   NormalizedServo servo = sound_servo();
   servo.inertia_ratio = 0.0;
   servo.friction_ratio = 0.0;
-  EXPECT_THAT(fields(validate(servo)), ElementsAre("inertia_ratio"));
+  EXPECT_THAT(fields(faults(servo)), ElementsAre("inertia_ratio"));
   servo.friction_ratio = 1.0;
-  EXPECT_THAT(validate(servo), IsEmpty());
+  EXPECT_THAT(faults(servo), IsEmpty());
   servo.inertia_ratio = infinity;
-  EXPECT_THAT(fields(validate(servo)), ElementsAre("inertia_ratio"));
+  EXPECT_THAT(fields(faults(servo)), ElementsAre("inertia_ratio"));
   servo.friction_ratio = 0.0;
-  EXPECT_THAT(validate(servo), IsEmpty());
+  EXPECT_THAT(faults(servo), IsEmpty());
   servo.damping = 0.0;
-  EXPECT_THAT(fields(validate(servo)), ElementsAre("inertia_ratio"));
+  EXPECT_THAT(fields(faults(servo)), ElementsAre("inertia_ratio"));
 }
 
 TEST(EdgeNormalizedServoRanges, AllFaultsAreListed) {
@@ -117,8 +117,8 @@ TEST(EdgeNormalizedServoRanges, AllFaultsAreListed) {
                               .backlash = nan,
                               .restitution = 2.0,
                               .sensor = ShaftName::motor};
-  EXPECT_THAT(fields(validate(servo)), ElementsAre("damping", "inertia_ratio", "friction_ratio",
-                                                   "backlash", "restitution", "sensor"));
+  EXPECT_THAT(fields(faults(servo)), ElementsAre("damping", "inertia_ratio", "friction_ratio",
+                                                 "backlash", "restitution", "sensor"));
 }
 
 TEST(EdgeDataSheetRanges, AllFaultsAreListedForEachMotor) {
@@ -176,7 +176,7 @@ TEST(EdgeDrivetrainRanges, AllFaultsAreListed) {
                               .load_friction = infinity,
                               .stiffness = 0.0};
   EXPECT_THAT(
-      fields(validate(drivetrain)),
+      fields(faults(drivetrain)),
       ElementsAre("motor_inertia", "load_inertia", "motor_friction", "load_friction", "stiffness"));
 }
 
@@ -186,7 +186,7 @@ TEST(EdgeDrivetrainRanges, EveryFieldAtFaultIsListedAtOnce) {
   drivetrain.backlash = -1.0;
   drivetrain.restitution = 2.0;
   drivetrain.sensor = ShaftName::motor;
-  EXPECT_THAT(fields(validate(drivetrain)),
+  EXPECT_THAT(fields(faults(drivetrain)),
               UnorderedElementsAre("stiffness", "backlash", "restitution", "sensor"));
 }
 
@@ -209,7 +209,7 @@ TEST(EdgeFaultText, NamesFieldValueAndWhatIsPermitted) {
   EXPECT_EQ(to_string({"motor.inertia", "-1 kg m2", "must be positive", "servo.toml:3:11"}),
             "servo.toml:3:11: motor.inertia = -1 kg m2: must be positive");
   EXPECT_EQ(to_string({"load.inertia", "", "needed", ""}), "load.inertia is missing: needed");
-  for (const Fault& fault : validate(NormalizedServo{.damping = -1.0})) {
+  for (const Fault& fault : faults(NormalizedServo{.damping = -1.0})) {
     EXPECT_FALSE(fault.value.empty());
     EXPECT_FALSE(fault.permitted.empty());
   }

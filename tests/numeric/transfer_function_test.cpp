@@ -118,11 +118,11 @@ TEST(TransferFunctionProperty, BoundsHoldWhatIsBetween) {
 }
 
 TEST(TransferFunctionEdge, EveryFaultIsNamed) {
-  const auto faults = validate(TransferFunction{{}, {0.0, infinity}, -1.0});
-  ASSERT_EQ(faults.size(), 3U);
-  EXPECT_EQ(faults[0].path, "numerator");
-  EXPECT_EQ(faults[1].path, "denominator");
-  EXPECT_EQ(faults[2].path, "delay");
+  const auto found = faults(TransferFunction{{}, {0.0, infinity}, -1.0});
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_EQ(found[0].path, "numerator");
+  EXPECT_EQ(found[1].path, "denominator");
+  EXPECT_EQ(found[2].path, "delay");
   EXPECT_THROW(factored({{1.0}, {0.0}}), InvalidInput);
 }
 

@@ -71,7 +71,7 @@ NormalizedServo random_servo(Dice& dice) {
     servo.friction_ratio = random_friction_ratio(dice);
     servo.backlash = on_grid(dice.log_between(1e-3, 1));
     servo.restitution = random_restitution(dice);
-  } while (!validate(servo).empty());
+  } while (!faults(servo).empty());
   return servo;
 }
 

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "analysis/pd_drive.hpp"
 #include "model/reduced_drive.hpp"
+#include "question/pd_drive.hpp"
 
 namespace gearlash::attractor_picture_test {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "analysis/grid/servo_grids.hpp"
 #include "picture/grid_chart.hpp"
+#include "question/map/servo_grids.hpp"
 
 namespace gearlash::grid_map_test {
 namespace {

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "analysis/analyse.hpp"
 #include "picture/attractor_picture.hpp"
 #include "picture/hunting_drive.hpp"
 #include "picture/svg_reading.hpp"
+#include "question/analyse.hpp"
 
 namespace gearlash::phase_portrait_test {
 namespace {

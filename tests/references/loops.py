@@ -229,7 +229,7 @@ def drawn_flight(draws):
 
 TABLES = [
     Table(
-        "analysis/ceilings",
+        "question/ceilings",
         "How far load and motor go from each unit of half a gap, |G(oo)| + integral of |g|, of loops\n"
         "that decay (1) or do not (0). The numbers of the law: proportional, derivative, integral,\n"
         "filter; position, speed, integral of speed; gain, zero, pole of a lead-lag element.",
@@ -241,7 +241,7 @@ TABLES = [
         seed=19601123, sample=3,
     ),
     Table(
-        "analysis/describing_gains",
+        "question/describing_gains",
         "Describing functions in the textbooks' forms: real and imaginary part of backlash, and at\n"
         "amplitudes also saturation and dead zone.",
         "number", "real imaginary saturation dead_zone",
@@ -255,7 +255,7 @@ TABLES = [
         seed=1,
     ),
     Table(
-        "analysis/type_one_cycles",
+        "question/type_one_cycles",
         "Predicted cycles of gain/(s (s + 1)) behind a gap of 2 that friction holds.",
         "gain guessed_amplitude guessed_frequency", "amplitude frequency",
         type_one_cycle,

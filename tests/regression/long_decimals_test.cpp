@@ -5,10 +5,10 @@
 #include <cmath>
 #include <string>
 
-#include "analysis/final_servo.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/grid.hpp"
 #include "gearlash/input.hpp"
+#include "question/final_servo.hpp"
 
 namespace gearlash::long_decimals_test {
 namespace {

@@ -5,11 +5,11 @@
 #include <numbers>
 #include <string>
 
-#include "analysis/ceiling/ceiling.hpp"
-#include "analysis/energy/mesh_torque.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/input.hpp"
 #include "model/reduced_drive.hpp"
+#include "question/loop/ceiling/ceiling.hpp"
+#include "question/loop/energy/mesh_torque.hpp"
 
 namespace gearlash::mended_bounds_test {
 namespace {

@@ -3,11 +3,11 @@
 // decay, not the motor's, is fast.
 #include <gtest/gtest.h>
 
-#include "analysis/grid/servo_grids.hpp"
 #include "base/bracketed_root.hpp"
 #include "closed_form/extremes.hpp"
 #include "closed_form/limit_cycle.hpp"
 #include "closed_form/trajectory.hpp"
+#include "question/map/servo_grids.hpp"
 
 namespace gearlash::motor_turning_test {
 namespace {

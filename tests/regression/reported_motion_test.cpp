@@ -11,8 +11,6 @@
 #include <sstream>
 #include <string>
 
-#include "analysis/describing/describing.hpp"
-#include "analysis/repetition.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/input.hpp"
 #include "gearlash/motion.hpp"
@@ -20,6 +18,8 @@
 #include "general/attractors/attractors.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/answer_report.hpp"
+#include "question/loop/describing/describing.hpp"
+#include "question/repetition.hpp"
 
 namespace gearlash::reported_motion_test {
 namespace {

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/design/drives.hpp"
-#include "analysis/design/feasible_values.hpp"
-#include "analysis/design/target.hpp"
 #include "closed_form/growth_at_rest.hpp"
 #include "closed_form/limit_cycle.hpp"
 #include "closed_form/trajectory.hpp"
 #include "model/reduced_drive.hpp"
+#include "question/change/drives.hpp"
+#include "question/change/feasible_values.hpp"
+#include "question/change/target.hpp"
 
 namespace gearlash::what_is_called_proved_test {
 namespace {

@@ -6,13 +6,13 @@
 #include <sstream>
 #include <string>
 
-#include "analysis/describing/describing.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/input.hpp"
 #include "gearlash/output.hpp"
 #include "input/drive_file.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/describe_report.hpp"
+#include "question/loop/describing/describing.hpp"
 
 namespace gearlash::words_test {
 namespace {

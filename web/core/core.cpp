@@ -5,8 +5,6 @@
 #include <functional>
 #include <optional>
 
-#include "analysis/analyse.hpp"
-#include "analysis/final_servo.hpp"
 #include "drive_reply.hpp"
 #include "gearlash/design.hpp"
 #include "grid_reply.hpp"
@@ -17,6 +15,8 @@
 #include "picture/answer_picture.hpp"
 #include "picture/attractor_picture.hpp"
 #include "picture_reply.hpp"
+#include "question/analyse.hpp"
+#include "question/final_servo.hpp"
 #include "thesis/figures.hpp"
 
 namespace gearlash::web {

@@ -6,12 +6,12 @@
 #include <cstddef>
 #include <optional>
 
-#include "analysis/final_servo.hpp"
 #include "gearlash/design.hpp"
 #include "gearlash/parameter.hpp"
 #include "input/written_texts.hpp"
 #include "model/parameters.hpp"
 #include "output/drive_text.hpp"
+#include "question/final_servo.hpp"
 
 namespace gearlash::web {
 namespace {

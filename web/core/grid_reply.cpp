@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "analysis/grid/bifurcations.hpp"
-#include "analysis/grid/grid_evaluation.hpp"
 #include "base/range_check.hpp"
 #include "gearlash/grid.hpp"
 #include "input/axis_text.hpp"
@@ -13,6 +11,8 @@
 #include "picture/grid_map.hpp"
 #include "picture/grid_words.hpp"
 #include "picture_reply.hpp"
+#include "question/map/bifurcations.hpp"
+#include "question/map/grid_evaluation.hpp"
 
 namespace gearlash::web {
 namespace {

@@ -112,7 +112,7 @@ ShaftStates shafts_of(const hybrid::State& state) {
 }
 
 DriveSystem drive_system(const ReducedDrive& drive) {
-  require_none(validate(drive));
+  require_none(faults(drive));
   const auto forms = std::make_shared<const DriveForms>(drive);
   DriveSystem result;
   result.at = forms->at();

@@ -213,7 +213,7 @@ void measure_sines(SearchSetting& setting) {
 }  // namespace
 
 SearchSetting search_setting(const ReducedDrive& drive, const StartTolerances& starts) {
-  require_none(validate(drive));
+  require_none(faults(drive));
   SearchSetting setting;
   setting.drive = with_settled_signals(drive);
   setting.built = drive_system(setting.drive);

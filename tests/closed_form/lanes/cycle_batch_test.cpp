@@ -12,12 +12,12 @@
 #include <limits>
 #include <stdexcept>
 
-#include "analysis/grid/hunting_end.hpp"
-#include "analysis/grid/servo_grids.hpp"
 #include "base/described.hpp"
 #include "base/same_bits.hpp"
 #include "base/seeded_draws.hpp"
 #include "closed_form/growth_at_rest.hpp"
+#include "question/map/hunting_end.hpp"
+#include "question/map/servo_grids.hpp"
 
 namespace gearlash::cycle_batch_test {
 namespace {

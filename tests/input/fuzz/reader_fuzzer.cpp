@@ -32,10 +32,10 @@ void require_sound(const gearlash::WrittenDrive& written) {
   require(written.angle.radians > 0.0 && !written.angle.name.empty());
   require(gearlash::faults(written.drive).empty());
   if (const auto servo = gearlash::closed_form_servo(written.drive)) {
-    return require(gearlash::validate(servo->servo).empty() && servo->natural_frequency > 0.0);
+    return require(gearlash::faults(servo->servo).empty() && servo->natural_frequency > 0.0);
   }
   const gearlash::drive::ReducedDrive reduced = gearlash::reduce(written.drive);
-  require(gearlash::drive::validate(reduced).empty());
+  require(gearlash::drive::faults(reduced).empty());
   const gearlash::hybrid::HybridSystem system = gearlash::drive::drive_system(reduced).system;
   require(gearlash::hybrid::faults(system).empty());
   for (std::size_t mode = 0; mode < system.mode_count(); ++mode) {
@@ -75,7 +75,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   accept_or_refuse([&] {
     const gearlash::Signal table =
         gearlash::parse_signal_table(text, name, gearlash::dimensions::angle);
-    require(gearlash::drive::validate(table, name).empty());
+    require(gearlash::drive::faults(table, name).empty());
   });
   // A table could be a file that is without end.
   if (text.find("file") != std::string_view::npos) return 0;

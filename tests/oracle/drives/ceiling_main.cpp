@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "analysis/ceiling/ceiling.hpp"
 #include "ending.hpp"
 #include "model/reduced_drive.hpp"
 #include "plain_drive.hpp"
+#include "question/loop/ceiling/ceiling.hpp"
 #include "random_drive.hpp"
 
 namespace {

@@ -6,12 +6,12 @@
 #include <cstdio>
 #include <string_view>
 
-#include "analysis/design/target.hpp"
-#include "analysis/grid/axis.hpp"
 #include "base/on_threads.hpp"
 #include "base/seeded_draws.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
+#include "question/axis.hpp"
+#include "question/change/target.hpp"
 #include "random_drive.hpp"
 
 namespace gearlash::oracle {

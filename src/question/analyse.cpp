@@ -1,0 +1,554 @@
+#include "question/analyse.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "base/arithmetic.hpp"
+#include "base/interval.hpp"
+#include "base/number.hpp"
+#include "base/range_check.hpp"
+#include "base/special_numbers.hpp"
+#include "closed_form/closed_answer.hpp"
+#include "general/attractors/search_setting.hpp"
+#include "model/proportional_servo.hpp"
+#include "question/contradictions.hpp"
+#include "question/drive_notes.hpp"
+#include "question/final_servo.hpp"
+#include "question/loop/ceiling/ceiling.hpp"
+#include "question/loop/energy/absence_by_energy.hpp"
+#include "question/loop/energy/computed_rest.hpp"
+#include "question/loop/energy/mesh_torque.hpp"
+#include "question/loop/linear_loop.hpp"
+#include "question/repetition.hpp"
+#include "question/step_response.hpp"
+
+namespace gearlash {
+namespace {
+
+// ---- closed form --------------------------------------------------------------------------------
+
+/// Factors from the normal form to SI, with the error of the data.
+struct Scales {
+  Interval backlash;
+  Interval time_unit;
+};
+
+Scales scales_of(const Drive& drive, const ClosedFormServo& servo, const DriveBox& box) {
+  if (!servo.is_as_given) return {Interval(box.backlash), Interval(box.time_unit)};
+  // They may have units; 1 is what they are without a backlash and a natural frequency.
+  const auto known_number = [&](double number) {
+    return number == 1.0 && !drive.is_rounded ? Interval(1.0) : AsWritten()(number);
+  };
+  return {known_number(servo.servo.backlash),
+          Interval(1.0) / known_number(servo.natural_frequency)};
+}
+
+Bounds scaled(const Bounds& bounds, const Interval& unit) {
+  return (Interval(bounds) * unit).bounds();
+}
+
+ProvedBounds bounds_of(const CycleBounds& bounds, const Scales& scales) {
+  ProvedBounds proved{.growth_at_rest = bounds.growth_at_rest};
+  if (!bounds.has_cycle) return proved;
+  proved.has_cycle = true;
+  proved.amplitude = scaled(bounds.amplitude, scales.backlash);
+  proved.period = scaled(bounds.period, scales.time_unit);
+  proved.multiplier = bounds.multiplier;
+  return proved;
+}
+
+/// Proofs are about the data that the servo's numbers stand for.
+LimitCycleAnalysis closed_analysis(const Drive& drive, const ClosedFormServo& servo,
+                                   const DriveBox& box, const Wanted& wanted) {
+  if (!wanted.proofs) return analyse_limit_cycles(servo.servo);
+  if (servo.is_as_given) return enclose_limit_cycles(servo.servo, reading_of(drive));
+  return enclose_limit_cycles(servo.servo, box.servo);
+}
+
+// ---- search -------------------------------------------------------------------------------------
+
+struct ContactTimes {
+  double together = 0.0;
+  double apart = 0.0;
+};
+
+/// Times with faces together and apart within a period.
+ContactTimes contact_times(const drive::DriveSystem& system, const drive::FoundCycle& cycle) {
+  ContactTimes times;
+  double from = cycle.orbit.start_time;
+  std::size_t mode = cycle.orbit.start.mode;
+  const auto add = [&](double to) {
+    const bool is_apart = system.modes.mode(mode).contact == drive::ContactState::apart;
+    (is_apart ? times.apart : times.together) += to - from;
+    from = to;
+  };
+  for (const hybrid::Event& event : cycle.orbit.events) {
+    add(event.time);
+    mode = event.mode_after;
+  }
+  add(cycle.orbit.start_time + cycle.orbit.period);
+  return times;
+}
+
+Cycle cycle_of(const drive::FoundCycle& found, const drive::DriveSystem& system) {
+  const ContactTimes times = contact_times(system, found);
+  Cycle cycle;
+  cycle.kind = found.is_symmetric ? CycleKind::symmetric : CycleKind::asymmetric;
+  cycle.stability = found.stability;
+  cycle.amplitude = found.amplitude;
+  cycle.motor_amplitude = found.motor_amplitude;
+  cycle.center = found.is_symmetric ? 0.0 : found.center;
+  cycle.period = found.period();
+  cycle.multiplier = found.multiplier;
+  cycle.residual = found.orbit.residual;
+  cycle.impact_speed = found.impact_speed;
+  cycle.engaged_time = times.together;
+  cycle.separated_time = times.apart;
+  cycle.events_per_period = found.orbit.events.size();
+  cycle.has_mirror_image = found.has_mirror_image;
+  cycle.starts = found.starts;
+  return cycle;
+}
+
+/// Peak to peak of the measured position, in steps. Both shafts swing together, or one alone.
+std::optional<double> encoder_steps(const drive::ReducedDrive& drive, double load, double motor) {
+  const drive::Sensing& sensing = drive.sensing;
+  if (!(sensing.resolution > 0.0)) return std::nullopt;
+  const double share = sensing.load_share_of_position;
+  return 2.0 * (share * load + (1.0 - share) * motor) / sensing.resolution;
+}
+
+IrregularMotion irregular_of(const drive::IrregularFound& found) {
+  // A motion of which too few swings were seen has no mean period, and perhaps an infinite
+  // mismatch.
+  const auto finite = [](double value) {
+    return std::isfinite(value) ? std::optional(value) : std::nullopt;
+  };
+  return {.amplitude = found.amplitude,
+          .motor_amplitude = found.motor_amplitude,
+          .center = found.center,
+          .is_motor_alone = found.is_motor_alone,
+          .mean_amplitude = finite(found.half_swing),
+          .amplitude_deviation = finite(found.half_swing_deviation),
+          .mean_period = finite(found.period),
+          .period_deviation = finite(found.period_deviation),
+          .mismatch = finite(found.mismatch),
+          .exponent = found.exponent,
+          .watched = found.watched,
+          .starts = found.starts};
+}
+
+const char* name_of(drive::MotionEnd end) {
+  switch (end) {
+    case drive::MotionEnd::rest:
+      return "rest";
+    case drive::MotionEnd::cycle:
+      return "cycle";
+    case drive::MotionEnd::irregular:
+      return "irregular";
+    case drive::MotionEnd::diverges:
+      return "diverges";
+    case drive::MotionEnd::undecided:
+      return "undecided";
+  }
+  return "";
+}
+
+/// Takes equilibria for where it rests: the ends are those where no torque limit acts.
+void add_pieces(const std::vector<RestPiece>& pieces, Rest& rest) {
+  rest.pieces = pieces;
+  rest.certainty = Certainty::computed;
+  const auto acts = [](const RestPiece& piece) { return piece.kind == RestKind::torque_limit; };
+  const bool all_are_limited = std::all_of(pieces.begin(), pieces.end(), acts);
+  Extent load;
+  Extent motor;
+  for (const RestPiece& piece : pieces) {
+    if (acts(piece) && !all_are_limited) continue;
+    for (const auto& [extent, bounds] : {std::pair(&load, &piece.load), {&motor, &piece.motor}}) {
+      extent->include(bounds->low);
+      extent->include(bounds->high);
+    }
+  }
+  rest.load = load;
+  rest.motor = motor;
+  rest.error = {0.0 - load.high, 0.0 - load.low};  // no −0
+}
+
+RestPlace mirrored(const RestPlace& place) {
+  RestPlace image = place;
+  image.load = -place.load;
+  if (place.motor) image.motor = -*place.motor;
+  return image;
+}
+
+/// Whether a start came to rest there; or at the mirror image, of a drive that is its own.
+bool is_reached(const RestPiece& piece, const drive::AttractorSearch& search, bool has_image) {
+  return std::any_of(search.outcomes.begin(), search.outcomes.end(), [&](const auto& start) {
+    return start.rest &&
+           (may_hold(piece, *start.rest) || (has_image && may_hold(piece, mirrored(*start.rest))));
+  });
+}
+
+std::optional<TimeToRest> time_of(const drive::AttractorSearch& search) {
+  std::vector<double> times;
+  for (const drive::Outcome& outcome : search.outcomes) {
+    if (outcome.end != drive::MotionEnd::rest) continue;
+    if (!outcome.time_to_rest) return std::nullopt;
+    times.push_back(*outcome.time_to_rest);
+  }
+  if (times.empty()) return std::nullopt;
+  std::sort(times.begin(), times.end());
+  const double median = std::midpoint(times[(times.size() - 1) / 2], times[times.size() / 2]);
+  return TimeToRest{search.band, times.back(), median};
+}
+
+/// The rest that starts led to, with all equilibria where they are known. Without dry friction,
+/// which holds the shafts, those count that starts approach: small disturbances leave others. A
+/// drive that creeps is still on its way to them.
+Rest rest_of(const drive::AttractorSearch& search, const drive::ReducedDrive& reduced) {
+  const drive::RestFound& found = *search.rest;
+  Rest rest{.load = found.load,
+            .motor = found.motor,
+            .error = found.error,
+            .starts = found.starts,
+            .swing_ratio = known(found.swing_ratio),
+            .creeping_starts = found.creeping_starts,
+            .time = time_of(search)};
+  std::vector<RestPiece> pieces = computed_rest(reduced);
+  const bool has_image = drive::is_own_image(reduced);
+  const auto reached = [&](const RestPiece& piece) { return is_reached(piece, search, has_image); };
+  // Where none is reached the answer contradicts itself, and keeps what shows it.
+  if (!drive::has_dry_friction(reduced) && std::any_of(pieces.begin(), pieces.end(), reached)) {
+    std::erase_if(pieces, std::not_fn(reached));
+  }
+  if (pieces.empty()) return rest;
+  const Rest seen = rest;
+  add_pieces(pieces, rest);
+  if (found.creeping_starts == 0) return rest;
+  const auto widen = [](Bounds& bounds, const Bounds& by) {
+    bounds = {std::min(bounds.low, by.low), std::max(bounds.high, by.high)};
+  };
+  widen(rest.load, seen.load);
+  widen(rest.motor, seen.motor);
+  rest.error = {0.0 - rest.load.high, 0.0 - rest.load.low};
+  rest.certainty = Certainty::searched;
+  return rest;
+}
+
+StartOutcome outcome_of(const drive::Outcome& found) {
+  StartOutcome outcome{.load_position = found.start.load_position,
+                       .load_speed = found.start.load_speed,
+                       .motor_position = found.start.motor_position,
+                       .motor_speed = found.start.motor_speed,
+                       .end = name_of(found.end),
+                       .watched = found.watched,
+                       .reason = found.reason,
+                       .rest = found.rest,
+                       .time_to_rest = found.time_to_rest};
+  if (found.end == drive::MotionEnd::cycle || found.end == drive::MotionEnd::irregular) {
+    outcome.which = found.which;
+  }
+  return outcome;
+}
+
+/// The verdict that follows from the outcomes of the starts and the motions found. A few starts
+/// that stay undecided, a tenth at most, are told beside it.
+Verdict verdict_of(const drive::AttractorSearch& search, const drive::ReducedDrive& reduced,
+                   const std::vector<IrregularMotion>& motions) {
+  const bool rests = search.count(drive::MotionEnd::rest) > 0;
+  const bool cycles = search.count(drive::MotionEnd::cycle) > 0;
+  const bool swings = cycles || search.count(drive::MotionEnd::irregular) > 0;
+  const bool diverges = search.count(drive::MotionEnd::diverges) > 0;
+  const std::size_t undecided = search.count(drive::MotionEnd::undecided);
+  const bool is_open = undecided > 0 || !search.is_complete;
+  constexpr std::size_t few = 10;
+  const bool is_open_at_large = !search.is_complete || few * undecided > search.outcomes.size();
+  if (swings && is_driven(reduced)) return Verdict::forced;
+  if (swings && rests) return Verdict::hunts_if_disturbed;
+  if (cycles || std::any_of(motions.begin(), motions.end(), repeats)) return Verdict::hunts;
+  if (swings) return Verdict::hunts_irregularly;
+  // An undecided start may stay bounded, or hunt.
+  if (diverges) return rests || is_open ? Verdict::runs_away_if_disturbed : Verdict::runs_away;
+  return rests && !is_open_at_large ? Verdict::comes_to_rest : Verdict::undecided;
+}
+
+std::vector<Note> notes_of(const drive::AttractorSearch& search) {
+  std::vector<Note> notes;
+  if (search.coordinates == drive::Coordinates::co_moving) {
+    notes.push_back({"co-moving", "The reference is a ramp. Positions are relative to it."});
+  }
+  if (search.coordinates == drive::Coordinates::in_place) {
+    notes.push_back(
+        {"in-place",
+         "The reference is a ramp, and the encoder or the controller does not move with "
+         "it. The motion was measured, and no cycle was closed."});
+  }
+  std::set<std::string> reasons;
+  for (const drive::Outcome& outcome : search.outcomes) {
+    if (outcome.end == drive::MotionEnd::undecided && !outcome.reason.empty()) {
+      reasons.insert(outcome.reason);
+    }
+  }
+  for (const std::string& reason : reasons) {
+    notes.push_back({"undecided-start", "Undecided: " + reason + "."});
+  }
+  return notes;
+}
+
+/// Proved, without a search.
+Answer answer_by_energy(const drive::ReducedDrive& reduced) {
+  Answer answer;
+  answer.verdict = Verdict::cannot_hunt;
+  answer.certainty = Certainty::enclosed;
+  answer.completeness = Certainty::enclosed;
+  answer.engine = Engine::general;
+  answer.is_dissipative = true;
+  const std::vector<RestPiece> pieces = computed_rest(reduced);
+  if (!pieces.empty()) add_pieces(pieces, answer.rest.emplace());
+  return answer;
+}
+
+}  // namespace
+
+Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive& reduced) {
+  Answer answer;
+  const drive::DriveSystem system = drive::drive_system(reduced);
+  for (const drive::FoundCycle& cycle : search.cycles) {
+    answer.cycles.push_back(cycle_of(cycle, system));
+    answer.cycles.back().encoder_steps =
+        encoder_steps(reduced, cycle.amplitude, cycle.motor_amplitude);
+  }
+  for (const drive::IrregularFound& motion : search.irregular) {
+    answer.irregular.push_back(irregular_of(motion));
+    answer.irregular.back().encoder_steps =
+        encoder_steps(reduced, motion.amplitude, motion.motor_amplitude);
+  }
+  answer.verdict = verdict_of(search, reduced, answer.irregular);
+  answer.rests_engaged = search.rests_until_disturbed;
+  for (const drive::FoundThreshold& found : search.thresholds) {
+    const bool runs_away = found.end == drive::MotionEnd::diverges;
+    answer.thresholds.push_back({.end = runs_away ? "running away" : "hunting",
+                                 .direction = found.direction,
+                                 .below = found.below,
+                                 .from = found.from});
+  }
+  if (search.rest) answer.rest = rest_of(search, reduced);
+  answer.search = SearchRecord{.watch_time = search.watch_time,
+                               .is_complete = search.is_complete,
+                               .borders = search.edges.size(),
+                               .starts = {}};
+  for (const drive::Outcome& outcome : search.outcomes) {
+    answer.search->starts.push_back(outcome_of(outcome));
+  }
+  answer.notes = notes_of(search);
+  return answer;
+}
+
+namespace {
+
+using IsEnough = std::function<bool(const drive::AttractorSearch&)>;
+
+/// With what a search begins, and where it may stop.
+struct SearchScope {
+  const Analysis* near = nullptr;            ///< to be followed
+  IsEnough is_enough{};                      ///< as of AttractorOptions
+  std::vector<drive::ShaftStates> starts{};  ///< likewise
+};
+
+Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress,
+                  const SearchScope& scope);
+
+/// Whether the motion that a headline names is of so few encoder steps that they may be its cause.
+bool is_of_few_steps(const Answer& answer) {
+  std::optional<double> steps;
+  if (const Cycle* cycle = answer.largest_stable()) {
+    steps = cycle->encoder_steps;
+  } else if (!answer.irregular.empty()) {
+    steps = answer.irregular.front().encoder_steps;
+  }
+  return steps && *steps <= steps_of_quantization && answer.verdict != Verdict::forced;
+}
+
+/// The first, the middle and the last start that lead to swings.
+std::vector<drive::ShaftStates> starts_that_swing(const drive::AttractorSearch& search) {
+  std::vector<drive::ShaftStates> all;
+  for (const drive::Outcome& outcome : search.outcomes) {
+    const bool swings =
+        outcome.end == drive::MotionEnd::cycle || outcome.end == drive::MotionEnd::irregular;
+    if (swings) all.push_back(outcome.start);
+  }
+  if (all.size() > 3) all = {all.front(), all[all.size() / 2], all.back()};
+  return all;
+}
+
+/// Answer::is_quantization. The first start that hunts without the encoder's steps decides.
+std::optional<bool> is_quantization(const Drive& drive, const drive::AttractorSearch& search,
+                                    const Wanted& wanted, Progress& progress) {
+  Drive exact = drive;
+  exact.sensor.encoder = {};
+  exact.sensor.speed_encoder = {};
+  SearchScope scope{.is_enough =
+                        [](const drive::AttractorSearch& so_far) {
+                          return so_far.count(drive::MotionEnd::cycle) +
+                                     so_far.count(drive::MotionEnd::irregular) >
+                                 0;
+                        },
+                    .starts = starts_that_swing(search)};
+  const Answer answer =
+      analysed(exact, {.proofs = false, .borders = false, .motion_bytes = wanted.motion_bytes},
+               progress, scope)
+          .answer;
+  if (answer.largest_stable() != nullptr || !answer.irregular.empty()) return false;
+  if (answer.search && !answer.search->is_complete) return std::nullopt;
+  const bool rests = is_at_rest(answer.verdict) ||
+                     (answer.verdict == Verdict::runs_away_if_disturbed && answer.rest);
+  return rests ? std::optional(true) : std::nullopt;
+}
+
+bool has_torque_limit(const drive::ReducedDrive& drive) {
+  return std::isfinite(drive.torque_limit) || std::isfinite(drive.winding.torque_limit);
+}
+
+/// Where the arithmetic is not that of proofs the data were read in it too.
+void take_for_computed(Answer& answer) {
+  const auto demote = [](Certainty& certainty) {
+    certainty = std::min(certainty, Certainty::computed);
+  };
+  demote(answer.certainty);
+  demote(answer.completeness);
+  for (Cycle& cycle : answer.cycles) demote(cycle.certainty);
+  answer.is_dissipative = false;
+  answer.bounds.reset();
+}
+
+Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress,
+                  const SearchScope& scope) {
+  require_none(faults(drive));
+  Analysis analysis;
+  analysis.reduced = reduce_settled(drive);
+  if (const std::optional<FinalServo> found = final_servo(drive)) {
+    const DriveBox box = box_of(drive, *found);
+    analysis.servo = found->closed_form;
+    analysis.closed = closed_analysis(drive, *analysis.servo, box, wanted);
+    analysis.answer = answer_of(*analysis.closed, *analysis.servo, found->stiffness);
+    if (analysis.closed->bounds) {
+      const Scales scales = scales_of(drive, *analysis.servo, box);
+      analysis.answer.bounds = bounds_of(*analysis.closed->bounds, scales);
+    }
+  } else if (is_absent_by_energy(drive)) {
+    analysis.search = drive::AttractorSearch{};
+    analysis.answer = answer_by_energy(analysis.reduced);
+  } else {
+    if (scope.near != nullptr && scope.near->search) {
+      analysis.search = drive::follow_attractors(analysis.reduced, *scope.near->search, progress);
+      analysis.is_followed = analysis.search.has_value();
+    }
+    if (!analysis.search) {
+      analysis.search = drive::find_attractors(
+          analysis.reduced,
+          {.starts = scope.starts,
+           .is_enough = scope.is_enough,
+           .most_edges = wanted.borders ? drive::AttractorOptions{}.most_edges : 0,
+           .band = wanted.rest_band,
+           .budget = {.bytes_kept = wanted.motion_bytes}},
+          progress);
+    }
+    analysis.answer = answer_of(*analysis.search, analysis.reduced);
+  }
+  add_figures(drive, wanted, analysis.answer, progress);
+  if (wanted.ceiling) {
+    Ceiling& ceiling = *analysis.answer.ceiling;
+    ceiling.mesh_torque = highest_mean_mesh_torque(drive);
+    ceiling.is_below_limit = has_torque_limit(analysis.reduced);
+  }
+  // The motion from which a ceiling is measured stands in the end, unless a sine drives it.
+  if (!is_driven(analysis.reduced)) withdraw_if_contradictory(analysis.answer);
+  if (wanted.quantization && analysis.search && is_of_few_steps(analysis.answer)) {
+    analysis.answer.is_quantization = is_quantization(drive, *analysis.search, wanted, progress);
+  }
+  std::vector<Note> notes = notes_on(drive);
+  if (!proves()) {
+    take_for_computed(analysis.answer);
+    notes.push_back(
+        {"arithmetic", "Nothing is proved: " + std::string(fault_of_arithmetic()) + "."});
+  }
+  analysis.answer.notes.insert(analysis.answer.notes.begin(), notes.begin(), notes.end());
+  return analysis;
+}
+
+}  // namespace
+
+bool is_decided(const Answer& answer) {
+  if (answer.search && !answer.search->is_complete) return false;
+  switch (answer.verdict) {
+    case Verdict::hunts:
+    case Verdict::hunts_if_disturbed:
+    case Verdict::hunts_irregularly:
+      return answer.largest_stable() != nullptr || !answer.irregular.empty();
+    case Verdict::undecided:
+      return false;
+    default:
+      return true;
+  }
+}
+
+bool is_at_rest(Verdict verdict) {
+  return verdict == Verdict::cannot_hunt || verdict == Verdict::comes_to_rest;
+}
+
+void ask_for(Quantity quantity, const Drive& base, Wanted& wanted) {
+  switch (info_of(quantity).scope) {
+    case QuantityScope::ceiling:
+      wanted.ceiling = true;
+      break;
+    case QuantityScope::loop:
+      wanted.loop = true;
+      break;
+    case QuantityScope::step:
+      wanted.step =
+          drive::usual_step_size(base.servo ? base.servo->backlash : base.gearbox.backlash);
+      break;
+    case QuantityScope::answer:
+    case QuantityScope::motion:
+      break;
+  }
+}
+
+void add_figures(const Drive& of, const Wanted& wanted, Answer& answer, Progress& progress) {
+  if (wanted.ceiling) answer.ceiling = ceiling_of(of);
+  const drive::ReducedDrive drive = reduce_settled(of);
+  // The closed form permits what cannot be followed: no gap, which the loop leaves out anyway, and
+  // a shaft without inertia.
+  drive::ReducedDrive with_gap = drive;
+  if (drive.backlash == 0.0) with_gap.backlash = 1.0;
+  if (wanted.loop && faults(with_gap).empty()) answer.loop = drive::loop_figures(with_gap);
+  if (wanted.step && faults(drive).empty()) {
+    answer.step =
+        drive::step_response(drive, *wanted.step, drive::usual_step(drive).until, progress);
+  }
+}
+
+Analysis analyse_in_full(const Drive& drive, const Wanted& wanted, Progress& progress) {
+  return analysed(drive, wanted, progress, {});
+}
+
+Analysis analyse_near(const Drive& drive, const Analysis& near, const Wanted& wanted,
+                      Progress& progress) {
+  return analysed(drive, wanted, progress, {.near = &near});
+}
+
+Analysis analyse_until(const Drive& drive, const Wanted& wanted, const IsEnough& is_enough,
+                       Progress& progress, const Analysis* near) {
+  return analysed(drive, wanted, progress, {.near = near, .is_enough = is_enough});
+}
+
+Answer analyse(const Drive& drive, const Wanted& wanted, Progress& progress) {
+  return analyse_in_full(drive, wanted, progress).answer;
+}
+
+}  // namespace gearlash

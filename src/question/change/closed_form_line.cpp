@@ -1,0 +1,127 @@
+#include "question/change/closed_form_line.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/special_numbers.hpp"
+#include "closed_form/closed_answer.hpp"
+#include "closed_form/growth_at_rest.hpp"
+#include "model/drivetrain_derivatives.hpp"
+#include "model/parameter_values.hpp"
+#include "question/axis.hpp"
+#include "question/change/target.hpp"
+
+namespace gearlash {
+
+std::optional<ClosedFormLine> ClosedFormLine::along(const Drive& drive, const std::string& path) {
+  std::optional<Drive> closed = closed_form_drive(drive);
+  const Axis axis{.path = path};
+  if (!closed || parameter_of(axis, *closed) == nullptr || !drivetrain_slopes(*closed, path)) {
+    return std::nullopt;
+  }
+  return ClosedFormLine(*std::move(closed), path);
+}
+
+ClosedFormLine::ClosedFormLine(Drive drive, std::string path)
+    : drive_(std::move(drive)),
+      axis_{.path = std::move(path)},
+      parameter_(parameter_of(axis_, drive_)->path),
+      drivetrain_(referred_drivetrain(drive_)),
+      data_error_(data_error_of(drive_, drivetrain_)),
+      present_(present_value(axis_, drive_).value_or(not_a_number)) {}
+
+Drive ClosedFormLine::drive_at(double value) const {
+  Drive drive = drive_;
+  set_on(axis_, drive, value);
+  return drive;
+}
+
+std::optional<FinalServo> ClosedFormLine::at(double value) const {
+  const FinalServo servo = servo_without_checks(drive_at(value));
+  return faults(servo.drivetrain).empty() ? std::optional(servo) : std::nullopt;
+}
+
+Answer ClosedFormLine::answer_at(double value) const {
+  const std::optional<FinalServo> servo = at(value);
+  return servo ? answer_of(*servo) : Answer{};
+}
+
+Answer ClosedFormLine::answer_at(double value, const Target& target) const {
+  const std::optional<FinalServo> servo = at(value);
+  if (!servo) return {};
+  const NormalizedServo& normal = servo->closed_form.servo;
+  if (normal.restitution == 0.0 || normal.backlash == 0.0) return answer_of(*servo);
+  const double growth = growth_at_rest(servo_dynamics(normal));
+  if (!is_ruled_out(target, growth)) return answer_of(*servo);
+  Answer answer;
+  answer.verdict = growth > 1.0 ? Verdict::hunts : Verdict::undecided;
+  answer.growth_at_rest = growth;
+  return answer;
+}
+
+double ClosedFormLine::growth_at(double value) const {
+  const std::optional<FinalServo> servo = at(value);
+  return servo ? growth_at_rest(servo_dynamics(servo->closed_form.servo)) : not_a_number;
+}
+
+/// Between two sound drives that differ in one number, every number of the drivetrain is monotone
+/// in that number (formulas in drivetrain_slopes()), so box_between() contains all drives between
+/// them. Most are linear in the number or its reciprocal, or go as its square. The exceptions are
+/// 1/(1 + r) and the friction (f + E) n² + T n d of a ratio and feedback d < 0, which rises
+/// wherever it is not negative.
+DriveBox ClosedFormLine::box(const Bounds& values) const {
+  const Drive low = drive_at(values.low);
+  const Drive high = drive_at(values.high);
+  const Drivetrain at_low = referred_drivetrain(low);
+  const Drivetrain at_high = referred_drivetrain(high);
+  DataError error = data_error_;
+  for (const DataError& of_end : {data_error_of(low, at_low), data_error_of(high, at_high)}) {
+    error.motor_friction = std::max(error.motor_friction, of_end.motor_friction);
+  }
+  return box_between(at_low, at_high, error);
+}
+
+bool ClosedFormLine::is_sound_at(double value) const {
+  const Drive drive = drive_at(value);
+  const Drivetrain drivetrain = referred_drivetrain(drive);
+  return has_resolved_friction(drive, drivetrain) && faults(drivetrain).empty();
+}
+
+bool ClosedFormLine::is_backlash() const {
+  return parameter_ == "servo.backlash" || parameter_ == "gearbox.backlash";
+}
+
+bool ClosedFormLine::is_share() const {
+  return parameter_ == "contact.restitution" || parameter_ == "servo.friction_ratio";
+}
+
+bool ClosedFormLine::has_bounces() const {
+  const bool has_two_masses = drivetrain_.motor_inertia > 0.0 && drivetrain_.load_inertia > 0.0;
+  return has_two_masses && (parameter_ == "contact.restitution" || drivetrain_.restitution > 0.0);
+}
+
+Bounds ClosedFormLine::range() const {
+  constexpr double factor = 1e3;
+  constexpr double times_critical = 10.0;
+  // Moves a wanted value towards the present one, which is sound, until it is sound itself.
+  const auto reach = [&](double wanted) {
+    constexpr int halvings = 200;
+    for (int i = 0; i < halvings && !is_sound_at(wanted); ++i) wanted = 0.5 * (present_ + wanted);
+    return wanted;
+  };
+  if (is_share()) return {reach(0.0), reach(1.0)};
+  const DrivetrainSlopes by = *drivetrain_slopes(drive_, axis_.path);
+  const double friction = by.motor_friction + by.load_friction;
+  if (by.stiffness == 0.0 && by.motor_inertia == 0.0 && by.load_inertia == 0.0 && friction > 0.0) {
+    const double critical = 2.0 * std::sqrt(drivetrain_.stiffness) *
+                            std::sqrt(drivetrain_.motor_inertia + drivetrain_.load_inertia);
+    return {reach(0.0), reach(times_critical * critical / friction)};
+  }
+  if (present_ == 0.0 || std::isinf(present_)) return {present_, present_};  // has no multiples
+  const double low = reach(present_ / factor);
+  const double high = reach(present_ * factor);
+  return {std::min(low, high), std::max(low, high)};
+}
+
+}  // namespace gearlash

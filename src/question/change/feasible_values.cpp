@@ -1,0 +1,598 @@
+#include "question/change/feasible_values.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "base/on_threads.hpp"
+#include "base/progress_part.hpp"
+#include "base/range_check.hpp"
+#include "base/shared_progress.hpp"
+#include "base/special_numbers.hpp"
+#include "closed_form/closed_answer.hpp"
+#include "closed_form/growth_at_rest.hpp"
+#include "gearlash/parameter.hpp"
+#include "model/parameter_values.hpp"
+#include "question/analyse.hpp"
+#include "question/axis.hpp"
+#include "question/change/closed_form_line.hpp"
+#include "question/change/proved_values.hpp"
+#include "question/change/searched_values.hpp"
+#include "question/change/value_scan.hpp"
+
+namespace gearlash {
+namespace {
+
+/// Values spread over a range: by ratio where it is wide, over the last four decades where it
+/// begins at 0, evenly for a restitution.
+std::vector<double> spread_over(const Bounds& range, std::size_t count, bool evenly) {
+  constexpr double decades = 1e-4;
+  const double low = range.low > 0.0 ? range.low : decades * range.high;
+  const bool by_ratio = !evenly && range.high > 4.0 * low;
+  std::vector<double> values;
+  if (by_ratio && low > range.low) values.push_back(range.low);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(count);
+    values.push_back(by_ratio ? low * std::pow(range.high / low, share)
+                              : range.low + share * (range.high - range.low));
+  }
+  values.push_back(range.high);
+  return values;
+}
+
+/// The search along a line in closed form.
+class ClosedFormSearch {
+ public:
+  ClosedFormSearch(const ClosedFormLine& line, const Target& target, Progress& progress)
+      : line_(line), target_(target), shared_(progress, usual_evaluations) {
+    if (line.is_backlash() && line.has_bounces() && line.present() > 0.0) {
+      at_present_ = line.answer_at(line.present());
+    }
+    of_motion_.limits = target.limits;
+    std::erase_if(of_motion_.limits, [](const QuantityLimit& limit) {
+      return info_of(limit.quantity).scope != QuantityScope::motion;
+    });
+  }
+
+  std::size_t evaluations() const { return evaluations_; }
+  bool is_stopped() const { return shared_.is_stopped(); }
+
+  bool is_met_at(double value) { return judged(value).is_met; }
+
+  /// The range in parts, in order: proved parts and undecided slivers. Each round halves all open
+  /// parts, so that a difficult part does not leave others unsearched.
+  std::vector<Part> certified(const Bounds& range) {
+    std::vector<Part> proved;
+    std::vector<Bounds> open = {range};
+    while (!open.empty()) {
+      std::vector<Bounds> halves;
+      for (const Bounds& values : open) {
+        const Judgement judgement = judge_part(values);
+        if (judgement != Judgement::some || is_sliver(values, range.high)) {
+          proved.push_back({values, judgement});
+          continue;
+        }
+        const double middle = middle_value(values.low, values.high);
+        halves.push_back({values.low, middle});
+        halves.push_back({middle, values.high});
+      }
+      open = std::move(halves);
+      constexpr std::size_t most_open = 20'000;
+      if (open.size() <= most_open && shared_.go_on(0.0)) continue;
+      for (const Bounds& values : open) proved.push_back({values, Judgement::some});
+      break;
+    }
+    std::sort(proved.begin(), proved.end(),
+              [](const Part& a, const Part& b) { return a.values.low < b.values.low; });
+    return proved;
+  }
+
+  /// The parts of a scan. None is a sliver; the ends of each decide its judgement.
+  std::vector<Part> scanned(const Bounds& range) { return parts_between(tried(range)); }
+
+  LastMet last_met_between(double met, double unmet) {
+    const auto judge = [this](double value) { return judged(value); };
+    constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+    if (!line_.has_bounces()) return last_met(judge, met, unmet, {rounding, rounding});
+    // Growth at rest is cheap, and what it does not rule out usually meets the target.
+    const double allowed = last_allowed_by_growth(met, unmet);
+    if (allowed == met || is_met_at(allowed)) return {allowed, unmet};
+    constexpr double at_jump = 1e-6;  // more is not worth a search for cycles per step
+    return last_met(judge, met, allowed, {rounding, at_jump});
+  }
+
+  /// The tried value that comes closest to the target.
+  double closest(const Bounds& range) {
+    std::vector<JudgedValue> all = tried(range);
+    if (!std::isnan(line_.present())) all.push_back(judged(line_.present()));
+    return closest_of(all);
+  }
+
+ private:
+  /// Undecided where there is no valid drive: next to a shaft without friction, a small friction on
+  /// the other shaft is less than a servo may have.
+  Answer answer_at(double value) const {
+    return at_present_ ? with_backlash(*at_present_, value) : line_.answer_at(value, target_);
+  }
+
+  /// From several threads at a time.
+  JudgedValue judged(double value) {
+    if (!shared_.finish(evaluations_ < usual_evaluations ? 1 : 0)) {
+      return {.value = value, .is_known = false, .beyond = Target::infinity};
+    }
+    ++evaluations_;
+    const Answer answer = answer_at(value);
+    return {.value = value,
+            .is_met = is_met(target_, answer),
+            .is_known = !line_.has_bounces() || is_known(target_, answer),
+            .moves = answer.verdict != Verdict::cannot_hunt,
+            .beyond = excess(target_, answer),
+            .moves_beyond = excess(of_motion_, answer)};
+  }
+
+  /// Values over the whole range, in order, denser near a limit.
+  const std::vector<JudgedValue>& tried(const Bounds& range) {
+    if (tried_.empty()) {
+      tried_ = tried_values([this](double value) { return judged(value); },
+                            {.first = first_values(range)});
+    }
+    return tried_;
+  }
+
+  std::vector<double> first_values(const Bounds& range) {
+    const bool bounces = line_.has_bounces();
+    const bool evenly = line_.is_share();
+    std::vector<double> values = spread_over(range, bounces ? coarse : fine, evenly);
+    if (!bounces) return values;
+    // Growth at rest is cheap; between these values it passes 1 or a limit.
+    const std::vector<double> looked_at = spread_over(range, fine, evenly);
+    std::vector<double> growths(looked_at.size());
+    on_threads(0, looked_at.size(), [&](std::size_t i) {
+      if (shared_.go_on(0.0)) growths[i] = line_.growth_at(looked_at[i]);
+    });
+    const auto differ = [&](double a, double b) {
+      return (a > 1.0) != (b > 1.0) || is_ruled_out(target_, a) != is_ruled_out(target_, b);
+    };
+    for (std::size_t i = 0; i + 1 < looked_at.size(); ++i) {
+      if (!differ(growths[i], growths[i + 1])) continue;
+      values.push_back(looked_at[i]);
+      values.push_back(looked_at[i + 1]);
+    }
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    return values;
+  }
+
+  /// The last value, starting from one that meets the target, that growth at rest does not rule
+  /// out. Growth very close to 1 is excluded too, because the search for cycles cannot distinguish
+  /// rest from hunting there.
+  double last_allowed_by_growth(double met, double unmet) const {
+    constexpr double told_apart = 1e-6;
+    const bool asks_for_rest = target_.no_hunting || target_.no_hunting_if_disturbed;
+    const auto is_allowed = [&](double value) {
+      const double growth = line_.growth_at(value);
+      return !is_ruled_out(target_, growth) && !(asks_for_rest && growth > 1.0 - told_apart);
+    };
+    if (is_allowed(unmet)) return unmet;
+    for (;;) {
+      const double middle = middle_value(std::min(met, unmet), std::max(met, unmet));
+      if (middle == met || middle == unmet) return met;
+      (is_allowed(middle) ? met : unmet) = middle;
+    }
+  }
+
+  Judgement judge_part(const Bounds& values) {
+    ++evaluations_;
+    return judge(target_, bounds_of(line_.box(values), guessed_flight_time(values)));
+  }
+
+  /// The flight time at the middle, else at an end.
+  double guessed_flight_time(const Bounds& values) {
+    for (const double value : {middle_value(values.low, values.high), values.low, values.high}) {
+      const double time = flight_time_of(answer_at(value));
+      if (!std::isnan(time)) return time;
+    }
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+
+  static bool is_sliver(const Bounds& values, double top) {
+    constexpr double width = 1e-10;
+    return values.high - values.low <= width * values.high || values.high <= width * width * top;
+  }
+
+  static constexpr std::size_t coarse = 64;  ///< a servo with bounces takes milliseconds
+  static constexpr std::size_t fine = 1024;
+  static constexpr std::size_t usual_evaluations = 500;  ///< for the progress alone
+
+  const ClosedFormLine& line_;
+  const Target& target_;
+  std::optional<Answer> at_present_;  ///< for backlash: amplitudes are proportional to it
+  Target of_motion_;
+  std::vector<JudgedValue> tried_;
+  std::atomic<std::size_t> evaluations_ = 0;
+  SharedProgress shared_;
+};
+
+/// Joins neighbors with the same judgement.
+std::vector<Part> joined(const std::vector<Part>& parts) {
+  std::vector<Part> all;
+  for (const Part& part : parts) {
+    if (!all.empty() && all.back().judgement == part.judgement) {
+      all.back().values.high = part.values.high;
+    } else {
+      all.push_back(part);
+    }
+  }
+  return all;
+}
+
+/// What the closed form answers of the target, over a range.
+FeasibleValues closed_form_values(const ClosedFormLine& line, const Bounds& range,
+                                  const Target& target, Progress& progress) {
+  FeasibleValues found{.searched = range};
+  const bool is_certified = !line.has_bounces();
+  found.kind = is_certified ? SearchKind::certified : SearchKind::scanned;
+  ClosedFormSearch search(line, target, progress);
+  put_together(
+      is_certified ? joined(search.certified(range)) : search.scanned(range),
+      [&](double value) { return search.is_met_at(value); },
+      [&](double met, double unmet) { return search.last_met_between(met, unmet); }, found);
+  if (found.intervals.empty()) found.closest = search.closest(range);
+  found.evaluations = search.evaluations();
+  found.stopped = search.is_stopped();
+  return found;
+}
+
+// ---- what is searched within the intervals
+// -------------------------------------------------------
+
+/// Judges the drives along an axis by conditions for which no motion is searched.
+class FigureSearch {
+ public:
+  /// `line`: where the conditions are also on motions in closed form.
+  FigureSearch(const Drive& drive, const Axis& axis, const ClosedFormLine* line,
+               const Target& target, Progress& progress)
+      : drive_(drive),
+        axis_(axis),
+        line_(line),
+        target_(target),
+        wanted_(wanted_for(target, drive)),
+        shared_(progress, usual_evaluations) {}
+
+  JudgedValue judged(double value) {
+    if (!shared_.finish(evaluations_ < usual_evaluations ? 1 : 0)) {
+      return {.value = value, .is_known = false, .beyond = Target::infinity};
+    }
+    ++evaluations_;
+    Drive drive = drive_;
+    set_on(axis_, drive, value);
+    if (!faults(drive).empty()) {
+      return {.value = value, .beyond = Target::infinity, .moves_beyond = Target::infinity};
+    }
+    Answer answer = line_ == nullptr ? Answer{} : line_->answer_at(value);
+    add_figures(drive, wanted_, answer, shared_);
+    const double beyond = excess(target_, answer);
+    return {.value = value,
+            .is_met = is_met(target_, answer),
+            .is_known = is_known(target_, answer),
+            .moves = true,
+            .beyond = beyond,
+            .moves_beyond = beyond};
+  }
+
+  std::size_t evaluations() const { return evaluations_; }
+  bool is_stopped() const { return shared_.is_stopped(); }
+
+ private:
+  static constexpr std::size_t usual_evaluations = 200;  ///< for the progress alone
+
+  const Drive& drive_;
+  const Axis& axis_;
+  const ClosedFormLine* line_;
+  const Target& target_;
+  Wanted wanted_;
+  std::atomic<std::size_t> evaluations_ = 0;
+  SharedProgress shared_;
+};
+
+/// The values within an interval, with its ends, rising.
+std::vector<double> values_within(const Bounds& interval, const std::vector<double>& values) {
+  std::vector<double> within = {interval.low};
+  for (const double value : values) {
+    if (value > interval.low && value < interval.high) within.push_back(value);
+  }
+  if (interval.high > interval.low) within.push_back(interval.high);
+  return within;
+}
+
+/// The borders of the intervals that are left. `before`: the intervals that were narrowed.
+void name_ends(const std::vector<Bounds>& before, FeasibleValues& found) {
+  const auto has_end = [](const std::vector<Bounds>& intervals, double end) {
+    return std::any_of(intervals.begin(), intervals.end(), [&](const Bounds& interval) {
+      return interval.low == end || interval.high == end;
+    });
+  };
+  std::erase_if(found.borders,
+                [&](const Border& border) { return !has_end(found.intervals, border.end); });
+  const auto is_open = [&](double end) {
+    return std::any_of(found.undecided.begin(), found.undecided.end(),
+                       [&](const Bounds& part) { return part.contains(end); });
+  };
+  for (const Bounds& interval : found.intervals) {
+    for (const double end : {interval.low, interval.high}) {
+      if (has_end(before, end) || is_open(end)) continue;
+      found.borders.push_back({.end = end, .kind = BorderKind::limit, .at = end});
+    }
+  }
+}
+
+/// Keeps of the intervals what meets the other conditions too. An interval all of whose values meet
+/// them stays as it is.
+void narrow(const Drive& drive, const Axis& axis, const ClosedFormLine* line, const Target& others,
+            const std::vector<double>& values, FeasibleValues& found, Progress& progress) {
+  FigureSearch search(drive, axis, line, others, progress);
+  const auto judge = [&](double value) { return search.judged(value); };
+  constexpr Resolution resolution{.smooth = 1e-12, .at_jump = 1e-9};
+  const std::vector<Bounds> intervals = std::exchange(found.intervals, {});
+  std::vector<JudgedValue> all;
+  for (const Bounds& interval : intervals) {
+    const std::vector<JudgedValue> tried =
+        tried_values(judge, {.first = values_within(interval, values)});
+    all.insert(all.end(), tried.begin(), tried.end());
+    if (tried.size() == 1 && tried[0].is_met) found.intervals.push_back(interval);
+    FeasibleValues within;
+    put_together(
+        parts_between(tried), [&](double value) { return judge(value).is_met; },
+        [&](double met, double unmet) { return last_met(judge, met, unmet, resolution); }, within);
+    for (const Bounds& part : within.intervals) found.intervals.push_back(part);
+    for (const Bounds& part : within.undecided) found.undecided.push_back(part);
+  }
+  name_ends(intervals, found);
+  if (found.intervals.empty() && !all.empty()) found.closest = closest_of(all);
+  found.searched_within = others;
+  found.evaluations += search.evaluations();
+  found.stopped = found.stopped || search.is_stopped();
+}
+
+/// The last value towards an unsound one of which the drive is sound: `sound` itself towards 0.
+template <class IsSound>
+double last_sound(double sound, double unsound, IsSound&& is_sound) {
+  constexpr int bisections = 40;
+  for (int i = 0; i < bisections && unsound != 0.0; ++i) {
+    const double middle = 0.5 * (sound + unsound);
+    (is_sound(middle) ? sound : unsound) = middle;
+  }
+  return sound;
+}
+
+/// Cuts a rising grid to where the drive is sound, unless it is so nowhere.
+void cut_to_sound_drives(const Axis& axis, const Drive& drive, FeasibleValues& found) {
+  const auto is_sound = [&](double value) {
+    Drive changed = drive;
+    set_on(axis, changed, value);
+    return faults(changed).empty();
+  };
+  std::vector<double>& grid = found.grid;
+  const auto first = std::find_if(grid.begin(), grid.end(), is_sound);
+  const auto last = std::find_if(grid.rbegin(), grid.rend(), is_sound);
+  if (first == grid.end()) return;
+  std::vector<double> sound(first, last.base());
+  if (first != grid.begin()) {
+    const double end = last_sound(*first, *(first - 1), is_sound);
+    if (end < sound.front()) sound.insert(sound.begin(), end);
+  }
+  if (last != grid.rbegin()) {
+    const double end = last_sound(*last, *(last - 1), is_sound);
+    if (end > sound.back()) sound.push_back(end);
+  }
+  grid = std::move(sound);
+  found.searched = {grid.front(), grid.back()};
+}
+
+/// What a target says of ceilings is proved over each interval, as far as bounds go.
+void prove_ceilings(const Drive& drive, const Axis& axis, const Target& target,
+                    FeasibleValues& found, Progress& progress) {
+  Target ceilings;
+  for (const QuantityLimit& limit : target.limits) {
+    if (is_provable(limit)) ceilings.limits.push_back(limit);
+  }
+  if (is_empty(ceilings)) return;
+  constexpr std::size_t most_boxes = 8000;
+  for (const Bounds& interval : found.intervals) {
+    found.proofs.push_back(
+        prove_target(drive, axis.path, interval, ceilings, most_boxes, progress));
+  }
+}
+
+/// Whether a word asks for numbers that the drive does not have, as a cascade's gains.
+bool asks_for_more(const Axis& axis, double word, const Drive& drive) {
+  Drive changed = drive;
+  set_on(axis, changed, word);
+  const std::vector<Parameter>& all = all_parameters_of_drives();
+  return std::any_of(all.begin(), all.end(), [&](const Parameter& parameter) {
+    return parameter.is_required && exists(parameter, changed) && !exists(parameter, drive);
+  });
+}
+
+/// In place of a value that differs from it by rounding.
+void add_present(double present, std::vector<double>& grid) {
+  constexpr double rounding = 1e-12;
+  const auto above = std::lower_bound(grid.begin(), grid.end(), present);
+  for (const auto near : {above, above == grid.begin() ? above : std::prev(above)}) {
+    if (near == grid.end() || std::abs(*near - present) > rounding * std::abs(present)) continue;
+    *near = present;
+    return;
+  }
+  grid.insert(above, present);
+}
+
+/// Whether the path means the parameter itself, not its reciprocal.
+bool is_alias(const Parameter& parameter, std::string_view path) {
+  const OtherForm* form = form_named(parameter, path);
+  return form != nullptr && form->dimension == nullptr;
+}
+
+/// What a designer considers first, if it enters the closed form.
+std::vector<std::string> usual_in_closed_form(const Drive& drive) {
+  constexpr std::string_view first[] = {"servo.backlash",      "gearbox.backlash",
+                                        "gearbox.ratio",       "controller.proportional",
+                                        "controller.position", "controller.speed",
+                                        "controller.gain",     "load.friction",
+                                        "motor.friction",      "controller.motor_speed_feedback",
+                                        "load.inertia",        "motor.inertia",
+                                        "contact.restitution"};
+  std::vector<std::string> usual;
+  for (const std::string_view path : first) {
+    const bool is_said_before = drive.servo && path == "gearbox.backlash";
+    const std::string name(path);
+    if (!is_said_before && ClosedFormLine::along(drive, name)) usual.push_back(name);
+  }
+  return usual;
+}
+
+/// The values of a number that meet the target. `found` has its grid.
+FeasibleValues values_of_number(const Drive& drive, const Axis& axis, const Target& target,
+                                FeasibleValues found, Progress& progress) {
+  const std::optional<ClosedFormLine> line = ClosedFormLine::along(drive, axis.path);
+  const bool is_bounded = line && !line->has_bounces();
+  const auto [first, others] = is_bounded
+                                   ? parts_of(target, [](Quantity one) { return is_of_boxes(one); })
+                                   : parts_of(target, [](Quantity one) { return !is_figure(one); });
+  const double share = is_empty(others) ? 1.0 : 0.8;
+  ProgressPart searching(progress, 0.0, share);
+  ProgressPart narrowing(progress, share, 1.0);
+  if (is_empty(first)) {
+    found.kind = SearchKind::scanned;
+    found.intervals = {found.searched};
+  } else if (line) {
+    FeasibleValues closed = closed_form_values(*line, found.searched, first, searching);
+    closed.parameter = found.parameter;
+    closed.present = found.present;
+    found = std::move(closed);
+  } else {
+    search_numbers(drive, axis, first, found, searching);
+  }
+  if (!is_empty(others)) {
+    const bool of_motion =
+        line && std::any_of(others.limits.begin(), others.limits.end(),
+                            [](const QuantityLimit& limit) { return !is_figure(limit.quantity); });
+    constexpr std::size_t count = 64;
+    const std::vector<double> values =
+        line ? spread_over(found.searched, count, line->is_share()) : found.grid;
+    narrow(drive, axis, of_motion ? &*line : nullptr, others, values, found, narrowing);
+  }
+  prove_ceilings(drive, axis, target, found, progress);
+  return found;
+}
+
+}  // namespace
+
+bool FeasibleValues::contains(double value) const {
+  return std::any_of(intervals.begin(), intervals.end(),
+                     [&](const Bounds& interval) { return interval.contains(value); });
+}
+
+std::optional<double> FeasibleValues::nearest() const {
+  std::optional<double> nearest;
+  const auto distance = [&](double value) {
+    return present > 0.0 && value > 0.0 ? std::abs(std::log(value / present))
+                                        : std::abs(value - present);
+  };
+  for (const Bounds& interval : intervals) {
+    const double here = std::clamp(present, interval.low, interval.high);
+    if (!nearest || distance(here) < distance(*nearest)) nearest = here;
+  }
+  return nearest;
+}
+
+std::vector<double> FeasibleValues::nearest_of_each() const {
+  if (closest) return {*closest};
+  std::vector<double> nearest;
+  for (const Bounds& interval : intervals) {
+    const double from = std::isnan(present) ? interval.low : present;
+    nearest.push_back(std::clamp(from, interval.low, interval.high));
+  }
+  return nearest;
+}
+
+Axis usual_axis(const Drive& drive, std::string_view parameter) {
+  return usual_axis("parameter", drive, parameter);
+}
+
+Axis axis_to_search(std::string_view field, const Drive& drive, std::string_view parameter) {
+  Axis axis{.path = path_named(parameter, drive)};
+  const std::optional<ClosedFormLine> line = ClosedFormLine::along(drive, axis.path);
+  if (!line) return usual_axis(field, drive, parameter);
+  if (const Parameter& own = *parameter_of(axis, drive); is_alias(own, axis.path)) {
+    axis.path = own.path;
+  }
+  const Bounds range = line->range();
+  axis.values = {range.low};
+  if (range.high > range.low) axis.values.push_back(range.high);
+  return axis;
+}
+
+Axis axis_to_search(const Drive& drive, std::string_view parameter) {
+  require_none(faults(drive));
+  return axis_to_search("parameter", drive, parameter);
+}
+
+std::vector<std::string> usual_parameters(const Drive& drive) {
+  if (faults(drive).empty() && closed_form_drive(drive)) return usual_in_closed_form(drive);
+  std::vector<std::string> usual;
+  for (const ParameterInfo& parameter : parameters_of(drive)) {
+    const std::string path(parameter.path);
+    const bool is_wanted =
+        path == "gearbox.backlash" || path.starts_with("controller.") || path.starts_with("servo.");
+    if (!is_wanted || parameter.kind != ParameterKind::number) continue;
+    const std::optional<double> present = present_value({.path = path}, drive);
+    if (present && *present > 0.0 && std::isfinite(*present)) usual.push_back(path);
+  }
+  return usual;
+}
+
+FeasibleValues feasible_values(const Drive& drive, const Axis& axis, const Target& target,
+                               Progress& progress) {
+  std::vector<Fault> all = faults(drive);
+  for (const std::vector<Fault>& more : {faults_of_axis(axis, drive, "axis"), faults(target)}) {
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  require_none(std::move(all));
+  const std::optional<double> present = present_value(axis, drive);
+  const auto [least, most] = std::minmax_element(axis.values.begin(), axis.values.end());
+  FeasibleValues found{.parameter = axis.path,
+                       .present = present.value_or(not_a_number),
+                       .searched = {*least, *most},
+                       .grid = axis.values};
+  std::sort(found.grid.begin(), found.grid.end());
+  if (!parameter_of(axis, drive)->choices.empty()) {
+    std::erase_if(found.grid, [&](double word) { return asks_for_more(axis, word, drive); });
+    search_words(drive, axis, target, found, progress);
+    return found;
+  }
+  cut_to_sound_drives(axis, drive, found);
+  if (present && found.searched.contains(*present)) add_present(*present, found.grid);
+  return values_of_number(drive, axis, target, std::move(found), progress);
+}
+
+FeasibleValues feasible_values(const Drive& drive, std::string_view parameter, const Target& target,
+                               Progress& progress) {
+  return feasible_values(drive, axis_to_search(drive, parameter), target, progress);
+}
+
+Judgement judge_present(const Drive& drive, const Target& target, const Answer& present) {
+  const Judgement at_point = is_met(target, present)     ? Judgement::all
+                             : is_known(target, present) ? Judgement::none
+                                                         : Judgement::some;
+  const std::optional<FinalServo> servo = final_servo(drive);
+  if (!servo || !servo_dynamics(servo->closed_form.servo).plastic_contact()) return at_point;
+  const auto [bounded, others] = parts_of(target, [](Quantity one) { return is_of_boxes(one); });
+  const Judgement proved =
+      judge(bounded, bounds_of(box_of(drive, *servo), flight_time_of(present)));
+  return is_empty(others) || proved == Judgement::none ? proved : std::min(proved, at_point);
+}
+
+}  // namespace gearlash

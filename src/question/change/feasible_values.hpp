@@ -1,0 +1,39 @@
+// The values of one parameter for which a drive meets its target, all other parameters fixed.
+#pragma once
+
+#include <string_view>
+
+#include "gearlash/design.hpp"
+#include "gearlash/progress.hpp"
+#include "question/change/target.hpp"
+
+namespace gearlash {
+
+// What is bounded is certified, and what is not is searched within it, so that a condition more
+// never loses a proof. In closed form with plastic contact the bounds are those of boxes
+// (bounds_of()): the range is halved until each part is proved to keep these conditions, all of it
+// or none, or is too narrow to matter (1e-10, wider where limits are nearly touched). Between two
+// parts that differ the end of the interval is located, so that it meets the target.
+//
+// With bounces a scan tries 65 values. It halves an interval between two of them, six times at
+// most, while the distance to a limit changes there by more than that distance, or while the cycle
+// at only one of its ends is known. Where a cycle is unknown it also halves every interval that
+// hunts, twice. Growth at rest is cheap and is computed at 1,025 values. A scan can miss what is
+// narrower than the first of these steps, and it knows only the cycles that analyse_limit_cycles()
+// finds. Backlash is not scanned: amplitudes are proportional to it, and nothing else depends on
+// it.
+//
+// Any other drive is analysed at each value of the axis (searched_values.hpp).
+//
+// Figures, which are computed without the motions that the drive ends in, are scanned within the
+// intervals that the other conditions leave.
+
+/// Whether the present drive meets the target: proved for its data as far as bounds go, where the
+/// closed form answers with plastic contact. Some: it stands on a limit to within rounding, or it
+/// is not known. `present`: its answer, with all that wanted_for() asks for.
+Judgement judge_present(const Drive& drive, const Target& target, const Answer& present);
+
+/// axis_to_search() of gearlash/design.hpp; faults name `field`. Precondition: a sound drive.
+Axis axis_to_search(std::string_view field, const Drive& drive, std::string_view parameter);
+
+}  // namespace gearlash

@@ -1,0 +1,35 @@
+// The derivatives of a searched limit cycle with respect to the parameters of its drive.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gearlash/sensitivity.hpp"
+#include "question/analyse.hpp"
+
+namespace gearlash {
+
+/// The quantities of a searched cycle that have derivatives.
+inline constexpr std::array differentiable_by_search = {Quantity::amplitude,
+                                                        Quantity::motor_amplitude, Quantity::center,
+                                                        Quantity::period, Quantity::frequency};
+
+/// Of the largest cycle that is not unstable, where the analysis of the drive is known. Stopped by
+/// Progress, it lacks the slopes by the later paths. Throws InvalidInput for a path that is no
+/// number of the drive. Precondition: it was searched.
+Jacobian searched_derivatives(const Drive& drive, const Analysis& analysis,
+                              std::span<const Quantity> quantities,
+                              const std::vector<std::string>& paths,
+                              Progress& progress = no_progress());
+
+/// The same of all these quantities with respect to every number of the drive that is not 0.
+Jacobian searched_derivatives(const Drive& drive, const Analysis& analysis,
+                              Progress& progress = no_progress());
+
+/// The same after an analysis of the drive. Throws InvalidInput for an unsound drive too.
+Jacobian searched_derivatives(const Drive& drive, std::span<const Quantity> quantities,
+                              const std::vector<std::string>& paths, Progress& progress);
+
+}  // namespace gearlash

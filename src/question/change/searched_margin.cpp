@@ -1,0 +1,157 @@
+#include "question/change/searched_margin.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/progress_part.hpp"
+#include "gearlash/analyse.hpp"
+#include "question/axis.hpp"
+#include "question/change/hunting_margin.hpp"
+#include "question/change/searched_values.hpp"
+#include "question/change/target.hpp"
+
+namespace gearlash {
+namespace {
+
+/// Values of a parameter of a drive.
+class ParameterValues {
+ public:
+  ParameterValues(const Drive& drive, const Axis& axis) : drive_(drive), axis_(axis) {}
+
+  bool are_words() const { return !parameter_of(axis_, drive_)->choices.empty(); }
+  bool are_sound_at(double value) const {
+    Drive changed = drive_;
+    set_on(axis_, changed, value);
+    return faults(changed).empty();
+  }
+
+ private:
+  const Drive& drive_;
+  const Axis& axis_;
+};
+
+bool is_undecided(const FeasibleValues& quiet, double value) {
+  return std::any_of(quiet.undecided.begin(), quiet.undecided.end(),
+                     [&](const Bounds& part) { return part.contains(value); });
+}
+
+/// Keeps a border of a drive that rests only if the drive is known to hunt beyond it.
+void keep_if_hunting_begins(std::optional<double>& border, double outwards,
+                            const FeasibleValues& quiet, const ParameterValues& values) {
+  if (!border) return;
+  const double range = quiet.searched.high - quiet.searched.low;
+  constexpr double nearest = 1e-3;  // of `located`, of the range: what counts as one value
+  const double apart = 2.0 * quiet.located * std::max(std::abs(*border), nearest * range);
+  if (is_undecided(quiet, *border) || !values.are_sound_at(*border + outwards * apart)) {
+    border.reset();
+  }
+}
+
+void set_choices(const FeasibleValues& quiet, const ParameterValues& values,
+                 ParameterMargin& margin) {
+  for (const double word : quiet.grid) {
+    if (word == quiet.present || is_undecided(quiet, word) || !values.are_sound_at(word)) continue;
+    if (quiet.contains(word) == margin.hunts) margin.choices.push_back(word);
+  }
+}
+
+/// ln(border/present) of the nearer border; infinite if there is none at a finite ratio.
+double log_distance(const ParameterMargin& margin) {
+  double nearest = infinity;
+  for (const std::optional<double>& border : {margin.below, margin.above}) {
+    if (!border || !(*border > 0.0) || !(margin.present > 0.0)) continue;
+    const double distance = std::log(*border / margin.present);
+    if (std::abs(distance) < std::abs(nearest)) nearest = distance;
+  }
+  return nearest;
+}
+
+std::vector<double> factors_along(const std::vector<double>& direction, double length) {
+  std::vector<double> factors;
+  for (const double component : direction) factors.push_back(std::exp(length * component));
+  return factors;
+}
+
+/// The first length at which the drive starts to hunt, or stops. Empty also where its motion beyond
+/// is unknown.
+std::optional<double> first_border(const FeasibleValues& quiet, bool hunts) {
+  if (quiet.intervals.empty()) return std::nullopt;
+  const Bounds& first = quiet.intervals.front();
+  if (hunts) return first.low > 0.0 ? std::optional(first.low) : std::nullopt;
+  const bool is_border =
+      first.low == 0.0 && first.high < quiet.searched.high && !is_undecided(quiet, first.high);
+  return is_border ? std::optional(first.high) : std::nullopt;
+}
+
+}  // namespace
+
+ParameterMargin parameter_margin(const Drive& drive, const Axis& axis, bool hunts,
+                                 Progress& progress) {
+  const FeasibleValues quiet = feasible_values(drive, axis, always_at_rest(), progress);
+  ParameterMargin margin = margin_of(quiet);
+  margin.hunts = hunts;
+  const ParameterValues values(drive, axis);
+  if (values.are_words()) {
+    margin.below.reset();
+    margin.above.reset();
+    set_choices(quiet, values, margin);
+    return margin;
+  }
+  if (hunts || quiet.kind != SearchKind::searched) return margin;
+  if (!quiet.contains(quiet.present)) {  // what lies beside it is unknown
+    margin.below.reset();
+    margin.above.reset();
+  }
+  keep_if_hunting_begins(margin.below, -1.0, quiet, values);
+  keep_if_hunting_begins(margin.above, 1.0, quiet, values);
+  return margin;
+}
+
+std::optional<CombinedMargin> combined_margin(const Drive& drive, const std::vector<Axis>& axes,
+                                              const std::vector<ParameterMargin>& margins,
+                                              bool hunts, Progress& progress) {
+  CombinedMargin combined;
+  std::vector<double> direction;
+  double reach = infinity;
+  double square = 0.0;
+  std::size_t nearest = 0;
+  for (std::size_t i = 0; i < margins.size(); ++i) {
+    combined.parameters.push_back(margins[i].parameter);
+    const double distance = log_distance(margins[i]);
+    direction.push_back(1.0 / distance);
+    square += 1.0 / (distance * distance);
+    if (std::abs(distance) >= reach) continue;
+    reach = std::abs(distance);
+    nearest = i;
+  }
+  if (!(square > 0.0) || !std::isfinite(square)) return std::nullopt;
+  for (double& component : direction) component /= std::sqrt(square);
+  const auto changed = [&](const std::vector<double>& factors) {
+    Drive result = drive;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      if (factors[i] != 1.0) set_on(axes[i], result, margins[i].present * factors[i]);
+    }
+    return result;
+  };
+  constexpr std::size_t count = 9;
+  const FeasibleValues quiet =
+      feasible_along([&](double length) { return changed(factors_along(direction, length)); },
+                     linear("length", 0.0, reach, count).values, always_at_rest(), progress);
+  if (quiet.stopped) return std::nullopt;
+  const std::optional<double> length = first_border(quiet, hunts);
+  constexpr double beyond = 2.0;  // times what counts as one length
+  if (length &&
+      faults(changed(factors_along(direction, *length * (1.0 + beyond * quiet.located)))).empty()) {
+    combined.factors = factors_along(direction, *length);
+    combined.distance = *length;
+    combined.located = quiet.located;
+    return combined;
+  }
+  combined.factors.assign(margins.size(), 1.0);
+  combined.factors[nearest] = std::exp(std::copysign(reach, direction[nearest]));
+  combined.distance = reach;
+  combined.located = margins[nearest].located;
+  return combined;
+}
+
+}  // namespace gearlash

@@ -1,0 +1,214 @@
+#include "question/change/tune_derivatives.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gearlash/sensitivity.hpp"
+#include "numeric/central_difference.hpp"
+#include "question/analyse.hpp"
+#include "question/axis.hpp"
+#include "question/change/orbit_derivatives.hpp"
+#include "question/change/target.hpp"
+#include "question/final_servo.hpp"
+#include "question/loop/linear_loop.hpp"
+
+namespace gearlash {
+namespace {
+
+bool is_of_loop(Quantity quantity) { return info_of(quantity).scope == QuantityScope::loop; }
+
+bool is_of_cycle(Quantity quantity) {
+  constexpr std::array of_cycle = {Quantity::amplitude, Quantity::motor_amplitude, Quantity::period,
+                                   Quantity::frequency, Quantity::growth_at_rest};
+  return std::find(of_cycle.begin(), of_cycle.end(), quantity) != of_cycle.end();
+}
+
+class UnitSlopes {
+ public:
+  UnitSlopes(const Drive& unit, const TuneTask& task) : unit_(unit), task_(task) {
+    for (const Axis& axis : task.tuned) {
+      const double value = present_value(axis, unit).value_or(0.0);
+      const double low = axis.values.front();
+      const double high = axis.values.back();
+      values_.push_back(value);
+      per_position_.push_back(axis.logarithmic ? value * std::log(high / low) : high - low);
+      paths_.push_back(axis.path);
+    }
+  }
+
+  std::optional<SlopedNumbers> all(Progress& progress) {
+    if (std::find(values_.begin(), values_.end(), 0.0) != values_.end()) return std::nullopt;
+    if (!add_loop() || !add_motion(progress)) return std::nullopt;
+    return std::move(numbers_);
+  }
+
+ private:
+  using Slopes = std::vector<std::optional<double>>;
+
+  static Answer with_loop(const Drive& drive) {
+    Answer answer;
+    if (faults(drive).empty()) answer.loop = drive::loop_figures(reduce(drive));
+    return answer;
+  }
+
+  /// The linear loops beside the unit that the differences along an axis need: above and below by
+  /// one step, by two, …
+  std::vector<Answer> loops_beside(std::size_t axis) const {
+    std::vector<Answer> loops;
+    for (std::size_t k = 1; k <= difference_weights.size(); ++k) {
+      for (const double away : {static_cast<double>(k), -static_cast<double>(k)}) {
+        Drive drive = unit_;
+        set_on(task_.tuned[axis], drive, values_[axis] + away * step_on(axis));
+        loops.push_back(with_loop(drive));
+      }
+    }
+    return loops;
+  }
+
+  double step_on(std::size_t axis) const {
+    constexpr double share = 1e-3;
+    return share * values_[axis];
+  }
+
+  std::optional<double> loop_slope(Quantity quantity, std::size_t axis) const {
+    double slope = 0.0;
+    for (std::size_t k = 0; k < difference_weights.size(); ++k) {
+      const std::optional<double> high = loops_[axis][2 * k].value(quantity);
+      const std::optional<double> low = loops_[axis][2 * k + 1].value(quantity);
+      if (!high || !low) return std::nullopt;
+      slope += difference_weights[k] * (*high - *low) / step_on(axis);
+    }
+    return slope;
+  }
+
+  Slopes loop_slopes(Quantity quantity) const {
+    Slopes slopes;
+    for (std::size_t axis = 0; axis < values_.size(); ++axis) {
+      slopes.push_back(loop_slope(quantity, axis));
+    }
+    return slopes;
+  }
+
+  /// A number whose slopes along the axes are `factor` times those of a value; false where one is
+  /// missing.
+  bool add(std::vector<SlopedNumber>& to, double number, double factor,
+           const Slopes& slopes) const {
+    SlopedNumber sloped{.value = number, .slopes = {}};
+    for (std::size_t axis = 0; axis < slopes.size(); ++axis) {
+      if (!slopes[axis]) return false;
+      sloped.slopes.push_back(factor * *slopes[axis] * per_position_[axis]);
+    }
+    to.push_back(std::move(sloped));
+    return true;
+  }
+
+  bool add_limit(const Bounds& permitted, double value, const Slopes& slopes) {
+    const auto at = [&](double limit, double sign) {
+      if (!std::isfinite(limit)) return true;
+      const double factor = sign / (limit == 0.0 ? 1.0 : std::abs(limit));
+      return add(numbers_.limited, factor * (value - limit), factor, slopes);
+    };
+    return at(permitted.high, 1.0) && at(permitted.low, -1.0);
+  }
+
+  bool add_loop() {
+    const Answer here = with_loop(unit_);
+    const std::optional<double> bandwidth = here.value(Quantity::bandwidth);
+    if (!bandwidth || !here.value(Quantity::phase_margin)) return false;
+    for (std::size_t axis = 0; axis < values_.size(); ++axis) loops_.push_back(loops_beside(axis));
+    if (!add(numbers_.sizes, -std::log(*bandwidth), -1.0 / *bandwidth,
+             loop_slopes(Quantity::bandwidth))) {
+      return false;
+    }
+    std::vector<QuantityLimit> limits = task_.target.limits;
+    std::erase_if(limits, [](const QuantityLimit& limit) { return !is_of_loop(limit.quantity); });
+    if (task_.least_phase_margin > 0.0) {
+      limits.insert(limits.begin(),
+                    {Quantity::phase_margin, {task_.least_phase_margin, Target::infinity}});
+    }
+    return std::all_of(limits.begin(), limits.end(), [&](const QuantityLimit& limit) {
+      return add_limit(limit.permitted, *here.value(limit.quantity), loop_slopes(limit.quantity));
+    });
+  }
+
+  bool add_motion(Progress& progress) {
+    const bool asks_for_rest = task_.target.no_hunting || task_.target.no_hunting_if_disturbed;
+    std::vector<QuantityLimit> limits;
+    std::copy_if(task_.target.limits.begin(), task_.target.limits.end(), std::back_inserter(limits),
+                 [](const QuantityLimit& limit) { return is_of_cycle(limit.quantity); });
+    if (asks_for_rest) limits.push_back({Quantity::growth_at_rest, {-Target::infinity, 1.0}});
+    if (limits.empty()) return true;
+    std::vector<Quantity> quantities;
+    for (const QuantityLimit& limit : limits) quantities.push_back(limit.quantity);
+    const std::optional<Jacobian> jacobian = jacobian_of(quantities, asks_for_rest, progress);
+    if (!jacobian) return false;
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+      if (!jacobian->values[i]) {  // it rests, which keeps every limit but one from below
+        if (limits[i].permitted.low > 0.0) return false;
+        numbers_.limited.push_back({-1.0, std::vector<double>(values_.size(), 0.0)});
+        continue;
+      }
+      Slopes slopes;
+      for (std::size_t axis = 0; axis < values_.size(); ++axis) {
+        slopes.push_back(jacobian->slope(i, axis));
+      }
+      if (!add_limit(limits[i].permitted, *jacobian->values[i], slopes)) return false;
+    }
+    return true;
+  }
+
+  std::optional<Jacobian> jacobian_of(const std::vector<Quantity>& quantities, bool asks_for_rest,
+                                      Progress& progress) const {
+    if (const auto servo = final_servo(unit_)) {
+      const bool bounces = servo->closed_form.servo.restitution > 0.0;
+      if (bounces && !task_.target.limits.empty()) return std::nullopt;
+      const std::vector<std::string_view> paths(paths_.begin(), paths_.end());
+      return derivatives(unit_, quantities, paths);
+    }
+    if (asks_for_rest) return std::nullopt;
+    const Analysis analysis =
+        analyse_in_full(unit_, wanted_for(task_.target, task_.series.nominal), progress);
+    const bool is_whole =
+        analysis.answer.irregular.empty() && analysis.search && analysis.search->is_complete;
+    if (!is_whole) return std::nullopt;
+    return searched_derivatives(unit_, analysis, quantities, paths_, progress);
+  }
+
+  const Drive& unit_;
+  const TuneTask& task_;
+  std::vector<std::string> paths_;
+  std::vector<double> values_;
+  std::vector<double> per_position_;        ///< of the values, from 0 to 1 along the axis
+  std::vector<std::vector<Answer>> loops_;  ///< beside the unit, for each axis
+  SlopedNumbers numbers_;
+};
+
+}  // namespace
+
+bool may_have_slopes(const TuneTask& task) {
+  const std::vector<QuantityLimit>& limits = task.target.limits;
+  const bool asks_for_rest = task.target.no_hunting || task.target.no_hunting_if_disturbed;
+  return task.aim == Aim::bandwidth &&
+         (!asks_for_rest || final_servo(task.series.nominal).has_value()) &&
+         !task.series.nominal.sampling &&
+         std::all_of(limits.begin(), limits.end(), [](const QuantityLimit& limit) {
+           return is_of_loop(limit.quantity) || is_of_cycle(limit.quantity);
+         });
+}
+
+std::optional<SlopedNumbers> slopes_of_unit(const Drive& unit, const TuneTask& task,
+                                            Progress& progress) {
+  if (!faults(unit).empty()) return std::nullopt;
+  try {
+    return UnitSlopes(unit, task).all(progress);
+  } catch (const InvalidInput&) {
+    return std::nullopt;  // a value does not enter the closed form
+  }
+}
+
+}  // namespace gearlash

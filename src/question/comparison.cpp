@@ -1,0 +1,107 @@
+#include "gearlash/comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/on_threads.hpp"
+#include "base/overloaded.hpp"
+#include "base/range_check.hpp"
+#include "base/shared_progress.hpp"
+#include "model/reduced_drive.hpp"
+#include "question/analyse.hpp"
+#include "question/step_response.hpp"
+
+namespace gearlash {
+namespace {
+
+void require_comparable(const std::vector<NamedDrive>& drives, const ComparisonOptions& options) {
+  RangeCheck check;
+  if (drives.empty() || drives.size() > most_compared_drives) {
+    check.refuse("drives", std::to_string(drives.size()),
+                 "must be from 1 to " + std::to_string(most_compared_drives));
+  }
+  if (options.step && !(std::isfinite(*options.step) && *options.step != 0.0)) {
+    check.refuse("step", exact_text(*options.step), "must be an angle other than 0, rad");
+  }
+  if (options.until && !(std::isfinite(*options.until) && *options.until > 0.0)) {
+    check.refuse("until", exact_text(*options.until), "must be positive, s");
+  }
+  std::vector<Fault> found = check.faults();
+  for (const NamedDrive& one : drives) {
+    for (Fault fault : faults(one.drive)) {
+      fault.where = one.name;
+      found.push_back(std::move(fault));
+    }
+  }
+  require_none(found);
+}
+
+std::optional<double> stiffness_of(const drive::ReducedDrive& drive) {
+  if (drive.error_shape.is_relay()) return std::nullopt;
+  using Stiffness = std::optional<double>;
+  return std::visit(Overloaded{[](const drive::ProportionalDerivative& law) -> Stiffness {
+                                 return law.proportional;
+                               },
+                               [](const drive::ProportionalIntegralDerivative& law) -> Stiffness {
+                                 return law.proportional;
+                               },
+                               [](const drive::Cascade& law) -> Stiffness {
+                                 return law.position * law.speed + law.speed_integral;
+                               },
+                               [](const drive::LeadLag& law) -> Stiffness { return law.gain; },
+                               [](const auto&) -> Stiffness { return std::nullopt; }},
+                    drive.controller);
+}
+
+/// Followed on where the load is still on its way, unless a time was given.
+StepResponse response_of(const drive::ReducedDrive& drive, double step,
+                         const std::optional<double>& until, Progress& progress) {
+  constexpr double longest = 64.0;
+  const double usual = drive::usual_step(drive).until;
+  StepResponse response = drive::step_response(drive, step, until.value_or(usual), progress);
+  for (double times = 2.0; times <= longest; times *= 2.0) {
+    const bool stands = response.ripple <= 1e-6 * std::abs(step);
+    if (until || response.rise_time || stands || !response.is_whole) break;
+    response = drive::step_response(drive, step, times * usual, progress);
+  }
+  return response;
+}
+
+ComparedDrive compared(const NamedDrive& one, double step, const ComparisonOptions& options,
+                       Progress& progress) {
+  const drive::ReducedDrive reduced = reduce_settled(one.drive);
+  ComparedDrive found{.name = one.name,
+                      .drive = one.drive,
+                      .answer = analyse(one.drive,
+                                        {.ceiling = true,
+                                         .loop = true,
+                                         .quantization = true,
+                                         .motion_bytes = options.motion_bytes},
+                                        progress),
+                      .encoder_step = reduced.sensing.resolution,
+                      .stiffness = stiffness_of(reduced)};
+  const bool is_unstable = found.answer->loop && !found.answer->loop->is_stable;
+  if (!is_unstable && faults(reduced).empty()) {
+    found.answer->step = response_of(reduced, step, options.until, progress);
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<ComparedDrive> compare(const std::vector<NamedDrive>& drives,
+                                   const ComparisonOptions& options, Progress& progress) {
+  require_comparable(drives, options);
+  const double step =
+      options.step.value_or(drive::usual_step_size(reduce(drives.front().drive).backlash));
+  std::vector<ComparedDrive> all(drives.size());
+  SharedProgress shared(progress, drives.size());
+  on_threads(0, drives.size(), [&](std::size_t i) {
+    all[i] = shared.is_stopped() ? ComparedDrive{.name = drives[i].name, .drive = drives[i].drive}
+                                 : compared(drives[i], step, options, shared);
+    shared.finish(1);
+  });
+  return all;
+}
+
+}  // namespace gearlash

@@ -1,0 +1,83 @@
+#include "question/drive_notes.hpp"
+
+#include <numbers>
+#include <string>
+
+#include "base/decimal.hpp"
+#include "model/firmware.hpp"
+#include "model/reduced_drive.hpp"
+
+namespace gearlash {
+namespace {
+
+std::string text_of(double value) {
+  constexpr int digits = 4;
+  return rounded_text(value, digits);
+}
+
+/// The gains that a firmware's registers are, where that is from, and what is left out.
+std::string text_on_firmware(const Drive& drive) {
+  const FirmwareFacts& facts = all_firmwares()[drive.controller.firmware->index()];
+  const Conversion conversion = converted(drive);
+  std::string text = "The registers of " + std::string(facts.name) + " mean";
+  const char* separator = ": ";
+  for (const ConvertedGain& gain : conversion.gains) {
+    text += separator + std::string(gain.name) + " " + text_of(gain.value) + " " +
+            std::string(gain.unit);
+    separator = ", ";
+  }
+  if (conversion.gains.empty()) text += ": nothing, all are 0";
+  const GainShaft shaft = conversion.controller.shaft;
+  text += shaft == GainShaft::motor   ? ", per angle of the motor"
+          : shaft == GainShaft::mixed ? ", torque of the motor per angle of the load"
+                                      : ", per angle of the load";
+  if (drive.sampling) text += ", every " + text_of(drive.sampling->period) + " s";
+  return text + " (" + std::string(facts.source) +
+         "). Not modelled: " + std::string(facts.left_out) + ".";
+}
+
+}  // namespace
+
+std::vector<Note> notes_on(const Drive& drive) {
+  std::vector<Note> notes;
+  if (drive.is_rounded) {
+    notes.push_back({"rounded-numbers",
+                     "Numbers of the drive were rounded as they were read or computed. What is "
+                     "proved holds of all numbers "
+                     "near them, and less is proved on boundaries."});
+  }
+  if (drive.servo) return notes;
+  const Motor& motor = drive.motor;
+  if (drive.sensor.is_assumed) {
+    notes.push_back(
+        {"assumed-encoder",
+         "The encoder is assumed on the load; sensor.position = \"motor\" puts it on the "
+         "motor."});
+  }
+  if (drive.controller.firmware) notes.push_back({"firmware", text_on_firmware(drive)});
+  if (motor.no_load_current && takes_no_load_current(motor)) {
+    notes.push_back({"no-load-current", "The motor's dry friction is " +
+                                            text_of(coulomb_torque(motor)) +
+                                            " N m: torque constant times no-load current, an upper "
+                                            "bound."});
+  }
+  if (drive.gearbox.efficiency) {
+    notes.push_back(
+        {"efficiency", "gearbox.efficiency = " + text_of(*drive.gearbox.efficiency) +
+                           " is not modelled: losses in proportion to the transmitted torque are "
+                           "left out. Give friction that does not depend on it as motor.coulomb or "
+                           "load.coulomb."});
+  }
+  if (drive.load.gravity != 0.0) {
+    const drive::Gravity gravity = reduce(drive).gravity;
+    constexpr double degrees = 180.0 / std::numbers::pi;
+    notes.push_back({"gravity", "Gravity is linearised about " +
+                                    text_of((drive.load.gravity_angle + gravity.angle) * degrees) +
+                                    "° above the horizontal, where the reference ends: torque " +
+                                    text_of(gravity.torque) + " N m, stiffness " +
+                                    text_of(gravity.stiffness) + " N m/rad."});
+  }
+  return notes;
+}
+
+}  // namespace gearlash

@@ -1,0 +1,338 @@
+#include "question/loop/ceiling/enclosed_ceiling.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <string_view>
+#include <utility>
+
+#include "base/on_threads.hpp"
+#include "model/parameters.hpp"
+#include "model/reduced_drive.hpp"
+#include "question/axis.hpp"
+#include "question/loop/ceiling/ceiling.hpp"
+
+namespace gearlash {
+namespace {
+
+using drive::ReducedDrive;
+
+/// A parameter in which all numbers of the reduced drive are monotone.
+struct MonotoneParameter {
+  std::string_view path;
+  bool may_be_zero;  ///< the loop keeps its form there
+};
+constexpr MonotoneParameter monotone_parameters[] = {{"servo.damping", true},
+                                                     {"servo.inertia_ratio", false},
+                                                     {"servo.friction_ratio", true},
+                                                     {"servo.backlash", false},
+                                                     {"servo.natural_frequency", false},
+                                                     {"motor.torque_constant", false},
+                                                     {"motor.back_emf_constant", false},
+                                                     {"motor.resistance", false},
+                                                     {"motor.inductance", false},
+                                                     {"motor.torque_per_volt", false},
+                                                     {"motor.torque_per_speed", false},
+                                                     {"motor.inertia", false},
+                                                     {"motor.friction", true},
+                                                     {"motor.coulomb", true},
+                                                     {"motor.breakaway", true},
+                                                     {"motor.no_load_current", true},
+                                                     {"motor.voltage_limit", false},
+                                                     {"motor.torque_limit", false},
+                                                     {"motor.current_limit", false},
+                                                     {"gearbox.ratio", false},
+                                                     {"gearbox.backlash", false},
+                                                     {"gearbox.inertia", true},
+                                                     {"load.inertia", false},
+                                                     {"load.friction", true},
+                                                     {"load.coulomb", true},
+                                                     {"load.breakaway", true},
+                                                     {"load.gravity", true},
+                                                     {"contact.restitution", true},
+                                                     {"contact.stiffness", false},
+                                                     {"sensor.resolution", false},
+                                                     {"sensor.counts_per_turn", false},
+                                                     {"controller.proportional", true},
+                                                     {"controller.integral", false},
+                                                     {"controller.derivative", false},
+                                                     {"controller.filter", false},
+                                                     {"controller.tracking_time", false},
+                                                     {"controller.position", false},
+                                                     {"controller.speed", false},
+                                                     {"controller.speed_integral", false},
+                                                     {"controller.gain", false}};
+
+/// nullptr where there is none.
+const MonotoneParameter* monotone_parameter(const Drive& drive, const std::string& path) {
+  const Parameter* parameter = find_parameter(path, drive);
+  if (parameter == nullptr) return nullptr;
+  const auto* const found =
+      std::find_if(std::begin(monotone_parameters), std::end(monotone_parameters),
+                   [&](const MonotoneParameter& one) { return one.path == parameter->path; });
+  if (found == std::end(monotone_parameters)) return nullptr;
+  // A computer's filter is not monotone in its time.
+  return found->path == "controller.filter" && drive.sampling ? nullptr : found;
+}
+
+/// Why the side cannot be taken; empty if it can.
+std::string obstacle(const Drive& drive, const BoxSide& side) {
+  const MonotoneParameter* found = monotone_parameter(drive, side.path);
+  if (found == nullptr) return "no proof over values of " + side.path + " is known";
+  if (side.values.low < 0.0 || (side.values.low == 0.0 && !found->may_be_zero)) {
+    return "a proof needs values of " + side.path + " above 0";
+  }
+  return {};
+}
+
+bool have_one_form(const EnclosedDrive& enclosed, const EnclosedDrive& widened) {
+  const ReducedDrive& one = enclosed.form();
+  const ReducedDrive& other = widened.form();
+  return one.contact.index() == other.contact.index() &&
+         enclosed.controller().order() == widened.controller().order() &&
+         drive::is_joined(one) == drive::is_joined(other) &&
+         (one.winding.time_constant > 0.0) == (other.winding.time_constant > 0.0) &&
+         std::isfinite(one.torque_limit) == std::isfinite(other.torque_limit) &&
+         std::isfinite(one.winding.torque_limit) == std::isfinite(other.winding.torque_limit);
+}
+
+using Sides = std::vector<Bounds>;
+
+/// By ratio over more than an octave.
+double middle_of(const Bounds& side) {
+  return side.low > 0.0 && side.high > 2.0 * side.low ? std::sqrt(side.low) * std::sqrt(side.high)
+                                                      : side.low + 0.5 * (side.high - side.low);
+}
+
+std::vector<double> middle_of(const Sides& sides) {
+  std::vector<double> middle;
+  for (const Bounds& side : sides) middle.push_back(middle_of(side));
+  return middle;
+}
+
+class Proof {
+ public:
+  Proof(const Drive& drive, std::span<const BoxSide> box, const CeilingSearch& search,
+        Progress& progress)
+      : drive_(drive), box_(box), search_(search), progress_(progress) {
+    for (const BoxSide& side : box) whole_.push_back(side.values);
+    // Each evaluation takes the time of its corners.
+    constexpr std::size_t few_corners = 32;
+    const std::size_t corners = std::size_t{1} << box.size();
+    if (corners > few_corners) search_.most_evaluations /= corners / few_corners;
+  }
+
+  EnclosedCeiling run() {
+    const Part whole = evaluated(whole_);
+    ++result_.evaluations;
+    result_.reason = whole.reason;
+    if (whole.is_hopeless) return result_;
+    look_at_single_drives();
+    measure_widenings();
+    parts_ = {whole};
+    while (goes_on()) divide();
+    result_.parts = parts_.size();
+    if (std::isfinite(parts_.front().bound)) {
+      result_.bound = parts_.front().bound;
+      result_.reason.clear();
+    } else if (!has_unbounded_drive_) {
+      result_.reason = "bounds over " + std::to_string(result_.evaluations) + " boxes of the " +
+                       std::to_string(whole_.size()) +
+                       " parameters leave some open: they are too wide for a proof";
+    }
+    return result_;
+  }
+
+ private:
+  struct Part {
+    Sides sides{};
+    double bound = infinity;
+    std::string reason{};
+    bool is_hopeless = false;  ///< no division helps
+  };
+
+  std::optional<double> value_of(const Ceiling& ceiling) const {
+    if (search_.quantity == Quantity::motor_ceiling) return ceiling.motor;
+    return search_.quantity == Quantity::effort_ceiling ? ceiling.effort : ceiling.load;
+  }
+
+  Part evaluated(Sides sides) const {
+    Part part{.sides = std::move(sides)};
+    std::vector<BoxSide> box(box_.begin(), box_.end());
+    for (std::size_t i = 0; i < box.size(); ++i) box[i].values = part.sides[i];
+    std::variant<EnclosedDrive, std::string> drives = enclosed_drive(drive_, box);
+    if (auto* reason = std::get_if<std::string>(&drives)) {
+      part.reason = std::move(*reason);
+      part.is_hopeless = true;
+      return part;
+    }
+    const Ceiling ceiling = ceiling_of(std::get<EnclosedDrive>(drives));
+    if (const std::optional<double> value = value_of(ceiling)) {
+      part.bound = *value;
+    } else {
+      part.reason = ceiling.load ? ceiling.effort_reason : ceiling.reason;
+    }
+    return part;
+  }
+
+  std::vector<Part> all_evaluated(const std::vector<Sides>& all) {
+    std::vector<Part> parts(all.size());
+    on_threads(0, all.size(), [&](std::size_t i) { parts[i] = evaluated(all[i]); });
+    result_.evaluations += all.size();
+    return parts;
+  }
+
+  /// The corners and the middle.
+  void look_at_single_drives() {
+    std::vector<Sides> points;
+    const auto add = [&](const std::vector<double>& values) {
+      Sides point;
+      for (const double value : values) point.push_back({value, value});
+      points.push_back(std::move(point));
+    };
+    add(middle_of(whole_));
+    for (std::size_t corner = 0; corner < std::size_t{1} << whole_.size(); ++corner) {
+      std::vector<double> values;
+      for (std::size_t i = 0; i < whole_.size(); ++i) {
+        values.push_back((corner >> i & 1U) != 0 ? whole_[i].high : whole_[i].low);
+      }
+      add(values);
+    }
+    for (const Part& part : all_evaluated(points)) {
+      if (std::isfinite(part.bound)) {
+        result_.largest = std::max(result_.largest.value_or(0.0), part.bound);
+      } else {
+        has_unbounded_drive_ = true;
+        result_.reason = part.reason;
+      }
+    }
+  }
+
+  /// How much wider than its ends the bound is of an eighth of each side about the middle: what
+  /// dividing this side gains. Where the ceiling rises or falls all along, nothing.
+  void measure_widenings() {
+    constexpr double share = 0.125;
+    const std::vector<double> middle = middle_of(whole_);
+    std::vector<Sides> wanted;
+    for (std::size_t i = 0; i < whole_.size(); ++i) {
+      const double reach =
+          0.5 * share * std::min(whole_[i].high - middle[i], middle[i] - whole_[i].low);
+      for (const Bounds& side : {Bounds{middle[i] - reach, middle[i] + reach},
+                                 Bounds{middle[i] - reach, middle[i] - reach},
+                                 Bounds{middle[i] + reach, middle[i] + reach}}) {
+        Sides sides;
+        for (const double value : middle) sides.push_back({value, value});
+        sides[i] = side;
+        wanted.push_back(std::move(sides));
+      }
+    }
+    const std::vector<Part> parts = all_evaluated(wanted);
+    for (std::size_t i = 0; i < whole_.size(); ++i) {
+      const double ends = std::max(parts[3 * i + 1].bound, parts[3 * i + 2].bound);
+      const double wider = parts[3 * i].bound / ends - 1.0;
+      // Not bounded: by the width alone, which divides these sides first.
+      widenings_.push_back(std::isfinite(wider) ? std::max(wider, 1e-9) : 1e3);
+    }
+  }
+
+  bool goes_on() {
+    if (has_unbounded_drive_) return false;
+    const double bound = parts_.front().bound;
+    const double largest = result_.largest.value_or(0.0);
+    if (search_.limit && (bound <= *search_.limit || largest > *search_.limit)) return false;
+    if (!search_.limit && bound <= (1.0 + search_.close) * largest) return false;
+    if (result_.evaluations >= search_.most_evaluations) return false;
+    const double share =
+        static_cast<double>(result_.evaluations) / static_cast<double>(search_.most_evaluations);
+    result_.stopped = !progress_.go_on(share);
+    return !result_.stopped;
+  }
+
+  std::array<Sides, 2> halves_of(const Part& part) const {
+    std::size_t widest = 0;
+    double most = -1.0;
+    for (std::size_t i = 0; i < whole_.size(); ++i) {
+      const double all = whole_[i].high - whole_[i].low;
+      const double share = all > 0.0 ? (part.sides[i].high - part.sides[i].low) / all : 0.0;
+      if (share * widenings_[i] > most) {
+        most = share * widenings_[i];
+        widest = i;
+      }
+    }
+    std::array<Sides, 2> halves = {part.sides, part.sides};
+    const double middle = middle_of(part.sides[widest]);
+    halves[0][widest].high = halves[1][widest].low = middle;
+    return halves;
+  }
+
+  /// Halves the parts with the largest bounds. The parts fall.
+  void divide() {
+    constexpr std::size_t at_a_time = 16;
+    const std::size_t count = std::min(at_a_time, parts_.size());
+    std::vector<Sides> halves;
+    for (std::size_t i = 0; i < count; ++i) {
+      for (Sides& half : halves_of(parts_[i])) halves.push_back(std::move(half));
+    }
+    std::vector<Part> parts = all_evaluated(halves);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      // What is proved of the whole holds of its half.
+      parts[i].bound = std::min(parts[i].bound, parts_[i / 2].bound);
+    }
+    parts_.erase(parts_.begin(), parts_.begin() + static_cast<std::ptrdiff_t>(count));
+    parts_.insert(parts_.end(), parts.begin(), parts.end());
+    std::stable_sort(parts_.begin(), parts_.end(),
+                     [](const Part& a, const Part& b) { return a.bound > b.bound; });
+  }
+
+  const Drive& drive_;
+  std::span<const BoxSide> box_;
+  CeilingSearch search_;
+  Progress& progress_;
+  Sides whole_;
+  std::vector<double> widenings_;
+  std::vector<Part> parts_;
+  bool has_unbounded_drive_ = false;
+  EnclosedCeiling result_;
+};
+
+}  // namespace
+
+std::variant<EnclosedDrive, std::string> enclosed_drive(const Drive& drive,
+                                                        std::span<const BoxSide> box) {
+  if (drive.controller.firmware) return std::string("no proof over registers is known");
+  if (box.size() > most_sides) {
+    return "more than " + std::to_string(most_sides) + " parameters vary";
+  }
+  for (const BoxSide& side : box) {
+    if (side.values.low == side.values.high) continue;
+    if (std::string reason = obstacle(drive, side); !reason.empty()) return reason;
+  }
+  std::vector<Drive> corners = {drive};
+  for (const BoxSide& side : box) {
+    const std::size_t count = corners.size();
+    if (side.values.low != side.values.high) {
+      corners.reserve(2 * count);
+      std::copy_n(corners.begin(), count, std::back_inserter(corners));
+    }
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      set_on({.path = side.path}, corners[i], i < count ? side.values.low : side.values.high);
+    }
+  }
+  std::optional<EnclosedDrive> all;
+  for (const Drive& at_corner : corners) {
+    if (!faults(at_corner).empty()) return std::string("some drives of the box are unsound");
+    const EnclosedDrive one(at_corner);
+    if (!all) all = one;
+    if (!have_one_form(*all, one)) return std::string("the loop changes its form within the box");
+    all->widen_to(one);
+  }
+  return *std::move(all);
+}
+
+EnclosedCeiling enclosed_ceiling(const Drive& drive, std::span<const BoxSide> box,
+                                 const CeilingSearch& search, Progress& progress) {
+  return Proof(drive, box, search, progress).run();
+}
+
+}  // namespace gearlash

@@ -1,0 +1,407 @@
+// A sampled controller, connected to the plant.
+//
+// Between events of the computer the plant moves with a held torque. At tick k the controller reads
+// the gap u(t_k). So the numbers at the ticks obey ξ⁺ = Φ ξ + Γ u(t_k) + ∫ K(θ) u, with
+// K(θ) = e^{Aθ} b from θ before the next tick. The largest |c ξ| at the ticks that |u| ≤ 1 can
+// cause is Σ|c Φᵏ Γ| + ∫Σ|c Φᵏ K(θ)| dθ. The integral of each |f| exceeds that of the chord by at
+// most δ²/8 ∫|f″| over a part of length δ. Between ticks an output bends by at most its second
+// derivative: it exceeds the line between the ends of a segment of length h by at most h²/8 of
+// that.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "numeric/decaying_motion.hpp"
+#include "question/loop/ceiling/loop_gain.hpp"
+
+namespace gearlash {
+namespace {
+
+/// Of the numbers at a tick, and of what is read there.
+using Form = LinearForm<Interval>;
+
+/// A part of a hold over which outputs bend little.
+struct Segment {
+  Interval from;
+  Interval length;
+  std::vector<Form> states;  ///< of the plant, at its start
+  std::vector<Form> slopes;  ///< x′ at its start
+  std::vector<Form> ends;    ///< of the plant, at its end, where the torque jumps; else none
+  Form torque;
+};
+
+/// What acts between the ticks, as it has become by the next: vectors whose norms, times their
+/// weights, have the integral as their sum.
+struct Spread {
+  std::vector<IntervalVector> vectors{};
+  std::vector<Interval> weights{};
+};
+
+/// A disturbance, and how it acts on the plant all the time; not at all if empty.
+struct Entry {
+  Disturbance disturbance;
+  IntervalVector acting{};
+};
+
+class SampledLoop : public DisturbedLoop {
+ public:
+  explicit SampledLoop(const LinearDrive<Interval>& drive)
+      : drive_(drive), plant_(drive.plant()), flow_(flow_of(plant_)) {
+    plan(1);
+  }
+  bool decays() const { return DecayingMotion::of(changes(), TimeKind::stepwise).has_value(); }
+  bool prove();
+  LoopGain gain(const Disturbance& disturbance) override;
+  StartGain start_gain(StartOutput output) override;
+  bool reads_gap_speed() const override {
+    return drive_.uses_speed() && !drive_.counts &&
+           !is_exactly(plant_.speed[LinearInput::gap_speed], 0.0);
+  }
+  Interval gap_acceleration_per_speed() const override {
+    return (*plant_.gap_acceleration)[LinearInput::gap_speed];
+  }
+
+ private:
+  Form state(std::size_t index) const { return state_form<Interval>(size_, index); }
+  Form nothing() const { return {IntervalVector(size_, Interval(0.0)), {}}; }
+  Form of_tick(Form of_plant) const;
+  Form sensed_speed() const;
+  Form combination(const IntervalVector& row, const std::vector<Form>& states) const;
+  void plan(int parts);
+  void pass(const HeldTorqueOf<Interval>& hold, const Form& torque, int parts,
+            std::vector<Form>& states);
+  IntervalMatrix changes() const;
+
+  Entry entry(const Disturbance& disturbance) const;
+  Spread spread(const IntervalVector& acting) const;
+  std::vector<Interval> norms(const IntervalVector& input, const std::vector<Form>& forms) const;
+  std::vector<Interval> largest(const std::vector<Form>& forms, const Entry& entry) const;
+  struct Extent {
+    Interval at_ends{0.0};  ///< the largest at the ends of the segments
+    Interval bend{0.0};     ///< by how much more it may bend between them
+  };
+  struct Track {
+    std::vector<Form> forms;           ///< by segments two, then the ends of holds
+    std::vector<Interval> since_tick;  ///< what has acted since, by segments and ends
+    std::vector<Interval> bends_since_tick;
+  };
+  Track track(const Form& output, const Entry& entry) const;
+  Extent extent(const Track& track, const Interval* sizes) const;
+  double peak(const IntervalVector& start) const;
+
+  LinearDrive<Interval> drive_;
+  LinearSystem<Interval> plant_;
+  IntervalMatrix flow_;  ///< of the plant
+  std::size_t last_reading_ = 0;
+  std::size_t queue_ = 0;  ///< torques that wait, the newest first
+  std::size_t size_ = 0;
+  Form asked_;              ///< torque worked out at the tick
+  std::vector<Form> next_;  ///< all numbers at the next tick
+  std::vector<Segment> segments_;
+  int spread_parts_ = 1;
+  std::optional<DecayingMotion> motion_;
+};
+
+/// Chooses how finely ticks are divided, so that what is not seen is a small share of the gain.
+bool SampledLoop::prove() {
+  motion_ = DecayingMotion::of(changes(), TimeKind::stepwise);
+  if (!motion_) return false;
+  constexpr double unseen = 2e-3;  // share of the gain
+  constexpr double most_parts = 24.0;
+  const auto parts = [&](const Interval& unseen_now, const Interval& whole) {
+    const double needed = std::sqrt(unseen_now.high / (unseen * whole.high));
+    return needed > 1.0 ? static_cast<int>(std::ceil(std::min(needed, most_parts))) : 1;
+  };
+  const Entry gap = entry({LinearInput::gap});
+  const Track load = track(plant_.load, gap);
+  const Extent extent = this->extent(load, largest(load.forms, gap).data());
+  const Spread spread = this->spread(gap.acting);
+  const Interval curvature = norms(spread.vectors[1], {load.forms.front()}).front();
+  spread_parts_ = parts(spread.weights[1] * curvature, extent.at_ends);
+  if (const int needed = parts(extent.bend, extent.at_ends); needed > 1) plan(needed);
+  return true;
+}
+
+Form SampledLoop::combination(const IntervalVector& row, const std::vector<Form>& states) const {
+  Form form = nothing();
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (!is_exactly(row[i], 0.0)) form = std::move(form) + row[i] * states[i];
+  }
+  return form;
+}
+
+/// A number of the plant among all that are kept.
+Form SampledLoop::of_tick(Form of_plant) const {
+  of_plant.of_state.resize(size_, Interval(0.0));
+  return of_plant;
+}
+
+/// From a tachometer, or from the difference to the last position.
+Form SampledLoop::sensed_speed() const {
+  if (!drive_.counts) return of_tick(plant_.speed);
+  Form change = of_tick(plant_.counted);
+  change[LinearInput::speed_reading] = 1.0;
+  change.of_state[last_reading_] = -1.0;
+  return 1.0 / drive_.period * std::move(change);
+}
+
+/// The plant over a time with one torque, as segments of equal length.
+void SampledLoop::pass(const HeldTorqueOf<Interval>& hold, const Form& torque, int parts,
+                       std::vector<Form>& states) {
+  const Interval length =
+      not_negative(hold.until - hold.from) / Interval(static_cast<double>(parts));
+  const IntervalVector of_torque = plant_.column(LinearInput::torque);
+  const LinearPassage over = passage(flow_, {of_torque}, length);
+  for (int i = 0; i < parts; ++i) {
+    std::vector<Form> slopes;
+    std::vector<Form> next;
+    for (std::size_t k = 0; k < plant_.size(); ++k) {
+      slopes.push_back(combination(flow_.rows[k], states) + of_torque[k] * torque);
+      next.push_back(combination(over.flow.rows[k], states) + over.of_inputs[0][k] * torque);
+    }
+    segments_.push_back({.from = hold.from + static_cast<double>(i) * length,
+                         .length = length,
+                         .states = std::move(states),
+                         .slopes = std::move(slopes),
+                         .ends = {},
+                         .torque = torque});
+    states = std::move(next);
+  }
+  segments_.back().ends = states;
+}
+
+/// What happens from one tick to the next, in segments: `parts` for each torque.
+void SampledLoop::plan(int parts) {
+  segments_.clear();
+  const std::size_t waiting = drive_.holds.front().age;
+  last_reading_ = plant_.size() + drive_.order();
+  queue_ = last_reading_ + (drive_.counts ? 1 : 0);
+  size_ = queue_ + waiting;
+
+  const Form position = of_tick(plant_.position);
+  const Form speed = sensed_speed();
+  const auto worked_out = [&](const ControllerRow<Interval>& row) {
+    return drive_.worked_out(row, position, speed, plant_.size());
+  };
+  asked_ = worked_out(drive_.torque);
+  std::vector<Form> states;
+  for (std::size_t i = 0; i < plant_.size(); ++i) states.push_back(state(i));
+  for (const HeldTorqueOf<Interval>& hold : drive_.holds) {
+    pass(hold, hold.age == 0 ? asked_ : state(queue_ + hold.age - 1), parts, states);
+  }
+
+  next_ = std::move(states);
+  for (const ControllerRow<Interval>& row : drive_.controller_states) {
+    next_.push_back(worked_out(row));
+  }
+  if (drive_.counts) {
+    next_.push_back(of_tick(plant_.counted));
+    next_.back()[LinearInput::speed_reading] = 1.0;
+  }
+  for (std::size_t i = 0; i < waiting; ++i) {
+    next_.push_back(i == 0 ? asked_ : state(queue_ + i - 1));
+  }
+}
+
+/// Φ − 1.
+IntervalMatrix SampledLoop::changes() const {
+  IntervalMatrix changes(size_);
+  for (std::size_t i = 0; i < size_; ++i) {
+    changes.rows[i] = next_[i].of_state;
+    changes.rows[i][i] = changes.rows[i][i] - 1.0;
+  }
+  return changes;
+}
+
+Entry SampledLoop::entry(const Disturbance& disturbance) const {
+  Entry entry{.disturbance = disturbance, .acting = at_once(plant_.slopes, disturbance)};
+  const auto is_nothing = [](const Interval& number) { return is_exactly(number, 0.0); };
+  if (std::all_of(entry.acting.begin(), entry.acting.end(), is_nothing)) entry.acting.clear();
+  return entry;
+}
+
+/// ∫Σ|c Φᵏ e^{Aθ} b| over a period: the trapezoidal rule over `spread_parts_` parts of length δ,
+/// and δ²/8 ∫Σ|c Φᵏ e^{Aθ} A² b|. Of several parts the latter is bounded state by state.
+Spread SampledLoop::spread(const IntervalVector& acting) const {
+  Spread spread;
+  const Interval length = drive_.period / Interval(static_cast<double>(spread_parts_));
+  const Interval weight = square(length) / 8.0 * length;
+  const IntervalMatrix over = passage(flow_, {}, length).flow;
+  const IntervalMatrix within = passage(flow_, {}, Interval(0.0, length.high)).flow;
+  const auto add = [&](IntervalVector vector, const Interval& share) {
+    vector.resize(size_, Interval(0.0));
+    spread.vectors.push_back(std::move(vector));
+    spread.weights.push_back(share);
+  };
+  IntervalVector here = acting;
+  IntervalVector bent = times(flow_, times(flow_, acting));
+  IntervalVector bends(plant_.size(), Interval(0.0));
+  add(here, 0.5 * length);
+  for (int i = 1; i <= spread_parts_; ++i) {
+    const IntervalVector bend = times(within, bent);
+    for (std::size_t k = 0; k < bends.size(); ++k) bends[k] = bends[k] + weight * abs(bend[k]);
+    if (spread_parts_ == 1) add(bend, weight);
+    here = times(over, here);
+    bent = times(over, bent);
+    add(here, i == spread_parts_ ? 0.5 * length : length);
+  }
+  if (spread_parts_ == 1) return spread;
+  for (std::size_t k = 0; k < bends.size(); ++k) {
+    IntervalVector unit(plant_.size(), Interval(0.0));
+    unit[k] = 1.0;
+    add(unit, bends[k]);
+  }
+  return spread;
+}
+
+std::vector<Interval> SampledLoop::norms(const IntervalVector& input,
+                                         const std::vector<Form>& forms) const {
+  std::vector<IntervalVector> rows;
+  for (const Form& form : forms) rows.push_back(form.of_state);
+  return motion_->impulse_norms(input, rows);
+}
+
+/// The largest |form| of each, but for what acts since the tick.
+std::vector<Interval> SampledLoop::largest(const std::vector<Form>& forms,
+                                           const Entry& entry) const {
+  std::vector<Interval> result = norms(at_once(next_, entry.disturbance), forms);
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    result[i] = result[i] + abs(at_once(forms[i], entry.disturbance));
+  }
+  if (entry.acting.empty()) return result;
+  const Spread spread = this->spread(entry.acting);
+  for (std::size_t k = 0; k < spread.vectors.size(); ++k) {
+    const std::vector<Interval> part = norms(spread.vectors[k], forms);
+    for (std::size_t i = 0; i < forms.size(); ++i) {
+      result[i] = result[i] + spread.weights[k] * part[i];
+    }
+  }
+  return result;
+}
+
+/// An output followed over a tick: two forms for each segment, its start and its bend. One that the
+/// torque moves at once jumps with it: then also the end of each hold, before the torque changes.
+SampledLoop::Track SampledLoop::track(const Form& output, const Entry& entry) const {
+  const Interval& of_torque = output[LinearInput::torque];
+  Track track;
+  std::vector<Form> ends;
+  std::vector<Interval> since_tick_at_ends;
+  Interval since_tick = 0.0;  // ∫|c e^{Aθ} b| up to the segment's start
+  const IntervalVector second = times(output.of_state, flow_);
+  for (const Segment& segment : segments_) {
+    const Interval within(0.0, segment.length.high);
+    track.forms.push_back(combination(output.of_state, segment.states) +
+                          of_torque * segment.torque);
+    track.forms.push_back(
+        combination(times(second, passage(flow_, {}, within).flow), segment.slopes));
+    Interval slope = 0.0;
+    Interval bend = 0.0;
+    if (!entry.acting.empty()) {
+      const IntervalVector acted =
+          times(passage(flow_, {}, segment.from + within).flow, entry.acting);
+      slope = abs(dot(output.of_state, acted));
+      bend = abs(dot(second, acted));
+    }
+    track.since_tick.push_back(since_tick);
+    track.bends_since_tick.push_back(bend);
+    since_tick = since_tick + segment.length * slope;
+    if (is_exactly(of_torque, 0.0) || segment.ends.empty()) continue;
+    ends.push_back(combination(output.of_state, segment.ends) + of_torque * segment.torque);
+    since_tick_at_ends.push_back(since_tick);
+  }
+  track.forms.insert(track.forms.end(), ends.begin(), ends.end());
+  track.since_tick.insert(track.since_tick.end(), since_tick_at_ends.begin(),
+                          since_tick_at_ends.end());
+  return track;
+}
+
+/// `sizes`: of the track's forms.
+SampledLoop::Extent SampledLoop::extent(const Track& track, const Interval* sizes) const {
+  Extent extent;
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    extent.at_ends = max(extent.at_ends, sizes[2 * i] + track.since_tick[i]);
+    extent.bend = max(extent.bend, square(segments_[i].length) / 8.0 *
+                                       (sizes[2 * i + 1] + track.bends_since_tick[i]));
+  }
+  for (std::size_t i = segments_.size(); i < track.since_tick.size(); ++i) {
+    extent.at_ends = max(extent.at_ends, sizes[segments_.size() + i] + track.since_tick[i]);
+  }
+  return extent;
+}
+
+LoopGain SampledLoop::gain(const Disturbance& disturbance) {
+  const Entry entry = this->entry(disturbance);
+  std::vector<const Form*> outputs{&plant_.load};
+  // Rigid faces: both shafts are one state, from which the gap parts them at once.
+  const bool is_rigid = plant_.gap_acceleration.has_value();
+  if (!is_rigid) outputs.push_back(&plant_.motor);
+  if (reads_gap_speed()) outputs.push_back(&*plant_.gap_acceleration);
+  std::vector<Form> forms{asked_};
+  std::vector<Track> tracks;
+  for (const Form* output : outputs) {
+    tracks.push_back(track(*output, entry));
+    forms.insert(forms.end(), tracks.back().forms.begin(), tracks.back().forms.end());
+  }
+  const std::vector<Interval> sizes = largest(forms, entry);
+  // The gap's speed acts on its acceleration by a slope of its own.
+  const bool has_slope_of_its_own = disturbance.front() == LinearInput::gap_speed;
+  const auto bound = [&](std::size_t which, const Form& output) {
+    std::size_t before = 1;  // forms, of the effort and of the tracks before
+    for (std::size_t i = 0; i < which; ++i) before += tracks[i].forms.size();
+    const Extent extent = this->extent(tracks[which], &sizes[before]);
+    const Interval now = has_slope_of_its_own ? Interval(0.0) : at_once(output, disturbance);
+    return (extent.at_ends + extent.bend + abs(now)).high;
+  };
+  LoopGain gain{.load = bound(0, plant_.load),
+                .motor = bound(is_rigid ? 0 : 1, plant_.motor),
+                .effort = sizes[0].high};
+  if (reads_gap_speed()) gain.gap_acceleration = bound(1, *plant_.gap_acceleration);
+  return gain;
+}
+
+/// |h| ≤ (|h(0)| + Σ|h(k + 1) − h(k)|)/2 for every h that tends to 0.
+double SampledLoop::peak(const IntervalVector& start) const {
+  IntervalVector change = times(changes(), start);
+  const Interval twice =
+      abs(dot(asked_.of_state, start)) + motion_->impulse_norm(change, asked_.of_state);
+  return (0.5 * twice).high;
+}
+
+/// At a tick, as if all had been at rest, or had moved evenly, before it.
+StartGain SampledLoop::start_gain(StartOutput output) {
+  if (output != StartOutput::effort) return {};
+  const auto extended = [&](IntervalVector start) {
+    const Interval counted = dot(plant_.counted.of_state, start);
+    start.resize(size_, Interval(0.0));
+    if (drive_.counts) start[last_reading_] = counted;
+    return start;
+  };
+  IntervalVector moving = extended(plant_.start_of_speed);
+  if (drive_.counts) moving[last_reading_] = -drive_.period;
+  IntervalVector gap = extended(plant_.start_of_gap);
+  if (drive_.counts) gap[last_reading_] = gap[last_reading_] + plant_.counted[LinearInput::gap];
+  return {.of_position = peak(extended(plant_.start_of_position)),
+          .of_speed = peak(moving),
+          .of_gap = peak(gap)};
+}
+
+}  // namespace
+
+bool sampled_loop_decays(const LinearDrive<Interval>& drive) { return SampledLoop(drive).decays(); }
+
+std::unique_ptr<DisturbedLoop> sampled_loop(const LinearDrive<Interval>& drive) {
+  auto loop = std::make_unique<SampledLoop>(drive);
+  if (!loop->prove()) return nullptr;
+  return loop;
+}
+
+std::unique_ptr<DisturbedLoop> disturbed_loop(const LinearDrive<Interval>& drive) {
+  return drive.holds.empty() ? continuous_loop(drive) : sampled_loop(drive);
+}
+
+bool loop_decays(const LinearDrive<Interval>& drive) {
+  return drive.holds.empty() ? continuous_loop_decays(drive) : sampled_loop_decays(drive);
+}
+
+}  // namespace gearlash

@@ -1,0 +1,77 @@
+#include "question/map/followed_drives.hpp"
+
+#include <algorithm>
+
+namespace gearlash {
+namespace {
+
+/// Whether two drives have motions of one kind, as far as a fresh search is sure to see them.
+bool are_alike(const Answer& one, const Answer& other) {
+  const auto stable = [](const Answer& answer) {
+    return std::count_if(answer.cycles.begin(), answer.cycles.end(),
+                         [](const Cycle& cycle) { return cycle.stability == Stability::stable; });
+  };
+  return one.verdict == other.verdict && stable(one) == stable(other) &&
+         one.irregular.empty() == other.irregular.empty();
+}
+
+class Run {
+ public:
+  Run(std::span<const Drive> drives, const Wanted& wanted, const AnswerSink& take,
+      Progress& progress)
+      : drives_(drives), wanted_(wanted), take_(take), progress_(progress) {}
+
+  void answer_all() {
+    if (drives_.empty()) return;
+    const Analysis first = afresh(0);
+    if (drives_.size() == 1) return;
+    const Analysis last = afresh(drives_.size() - 1);
+    answer_between(0, first, drives_.size() - 1, last);
+  }
+
+ private:
+  Analysis afresh(std::size_t index) {
+    if (is_stopped_) return {};
+    return taken(index, analyse_in_full(drives_[index], wanted_, progress_));
+  }
+
+  Analysis taken(std::size_t index, Analysis analysis) {
+    if (!take_(index, analysis.answer)) is_stopped_ = true;
+    return analysis;
+  }
+
+  /// Both ends are answered.
+  void answer_between(std::size_t low, const Analysis& at_low, std::size_t high,
+                      const Analysis& at_high) {
+    if (high - low < 2 || is_stopped_) return;
+    if (are_alike(at_low.answer, at_high.answer)) {
+      follow(low, at_low, high);
+      return;
+    }
+    const std::size_t middle = low + (high - low) / 2;
+    const Analysis at_middle = afresh(middle);
+    answer_between(low, at_low, middle, at_middle);
+    answer_between(middle, at_middle, high, at_high);
+  }
+
+  void follow(std::size_t low, Analysis near, std::size_t high) {
+    for (std::size_t index = low + 1; index < high && !is_stopped_; ++index) {
+      near = taken(index, analyse_near(drives_[index], near, wanted_, progress_));
+    }
+  }
+
+  std::span<const Drive> drives_;
+  const Wanted& wanted_;
+  const AnswerSink& take_;
+  Progress& progress_;
+  bool is_stopped_ = false;
+};
+
+}  // namespace
+
+void search_run(std::span<const Drive> drives, const Wanted& wanted, const AnswerSink& take,
+                Progress& progress) {
+  Run(drives, wanted, take, progress).answer_all();
+}
+
+}  // namespace gearlash

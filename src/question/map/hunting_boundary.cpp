@@ -1,0 +1,56 @@
+#include "question/map/hunting_boundary.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "closed_form/energy_balance.hpp"
+#include "closed_form/growth_at_rest.hpp"
+
+namespace gearlash {
+namespace {
+
+Side side_of(double growth_at_rest) {
+  if (std::isnan(growth_at_rest)) return Side::unknown;
+  return growth_at_rest > 1.0 ? Side::inside : Side::outside;
+}
+
+}  // namespace
+
+std::optional<NormalizedServo> servo_at(const GridPoints& points, const MapPoint& place) {
+  const std::optional<FinalServo> servo = points.servo_at(std::array{place.y, place.x});
+  return servo ? std::optional(servo->closed_form.servo) : std::nullopt;
+}
+
+Side side_of_hunting(const std::optional<NormalizedServo>& servo) {
+  return servo ? side_of(growth_at_rest(servo_dynamics(*servo))) : Side::unknown;
+}
+
+Side side_of_dissipation(const std::optional<NormalizedServo>& servo) {
+  if (!servo) return Side::unknown;
+  return is_dissipative(*servo) ? Side::outside : Side::inside;
+}
+
+std::vector<MapCurve> dissipative_boundary(const Grid& grid, Progress& progress) {
+  const GridPoints points(grid);
+  const auto side = [&](const MapPoint& place) {
+    return side_of_dissipation(servo_at(points, place));
+  };
+  std::vector<Side> corners;
+  corners.reserve(grid.size());
+  for (const double y : grid.axes[0].values) {
+    for (const double x : grid.axes[1].values) corners.push_back(side({x, y}));
+  }
+  return boundary_of_region(grid.axes[1], grid.axes[0], corners, side, {}, progress);
+}
+
+std::vector<MapCurve> hunting_boundary(const Grid& grid, std::span<const double> growth_at_rest,
+                                       Progress& progress) {
+  const GridPoints points(grid);
+  std::vector<Side> corners;
+  corners.reserve(growth_at_rest.size());
+  for (const double growth : growth_at_rest) corners.push_back(side_of(growth));
+  const auto side = [&](const MapPoint& place) { return side_of_hunting(servo_at(points, place)); };
+  return boundary_of_region(grid.axes[1], grid.axes[0], corners, side, {}, progress);
+}
+
+}  // namespace gearlash

@@ -1,0 +1,36 @@
+// The hunting-free boundary of a map: growth at rest 1.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "question/map/grid_points.hpp"
+#include "question/map/region_boundary.hpp"
+
+namespace gearlash {
+
+/// The servo at a place of a map whose axes are y and x, in this order; empty for an invalid drive
+/// or one that must be searched.
+std::optional<NormalizedServo> servo_at(const GridPoints& points, const MapPoint& place);
+
+/// Inside where small motion grows (growth at rest > 1), outside where it decays; unknown where
+/// there is no such servo, or it bounces too often to follow.
+Side side_of_hunting(const std::optional<NormalizedServo>& servo);
+
+/// The curves on which the growth at rest is 1 to the last bits, with servos that hunt on their
+/// left. With plastic contact there is no limit cycle on the other side, and the amplitude tends to
+/// 0 towards the curve. Where faces bounce, the growth can also jump past 1 when the number of
+/// bounces changes, and a limit cycle may exist beside a stable rest. `growth_at_rest` belongs to
+/// the grid's points, as evaluate() gives it. There are no curves where an axis has fewer than two
+/// values or an infinite one. Precondition: two axes, y and x.
+std::vector<MapCurve> hunting_boundary(const Grid& grid, std::span<const double> growth_at_rest,
+                                       Progress& progress = no_progress());
+
+/// The curves around servos that cannot hunt with any restitution (is_dissipative()), which lie on
+/// their right. The growth at rest on the curves is at most 1. Precondition: two axes, y and x.
+std::vector<MapCurve> dissipative_boundary(const Grid& grid, Progress& progress = no_progress());
+/// Outside where no restitution can make the servo hunt, inside elsewhere; unknown without a servo.
+Side side_of_dissipation(const std::optional<NormalizedServo>& servo);
+
+}  // namespace gearlash

@@ -1,0 +1,169 @@
+#include "question/step_response.hpp"
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "base/range_check.hpp"
+#include "general/assemble/time_scale.hpp"
+#include "question/motion.hpp"
+
+namespace gearlash::drive {
+namespace {
+
+struct Point {
+  double time;
+  double position;  ///< of the load, along the step
+};
+
+/// The load's path: all its turning points, with samples between them.
+class Path {
+ public:
+  Path(const hybrid::Trajectory& motion, double way) : motion_(motion), way_(way) {
+    std::vector<double> times;
+    constexpr int samples = 4096;
+    for (int i = 0; i <= samples; ++i) times.push_back(motion.end_time() * i / samples);
+    for (const hybrid::Event& event : motion.events()) times.push_back(event.time);
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      if (i > 0) add_turning(times[i - 1], times[i]);
+      points_.push_back({times[i], position(times[i])});
+    }
+  }
+
+  const std::vector<Point>& points() const { return points_; }
+
+  /// The first time at which the path crosses the level, in either direction.
+  std::optional<double> first_passing(double level) const {
+    for (std::size_t i = 1; i < points_.size(); ++i) {
+      if ((points_[i - 1].position < level) != (points_[i].position < level)) {
+        return passing_between(i - 1, i, level);
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// The time from which the path stays within the band about a level; empty if it ends outside.
+  std::optional<double> time_into_band(double level, double band) const {
+    const auto outside = [&](const Point& point) {
+      return std::abs(point.position - level) > band;
+    };
+    if (outside(points_.back())) return std::nullopt;
+    for (std::size_t i = points_.size(); i-- > 1;) {
+      if (!outside(points_[i - 1])) continue;
+      const double edge = points_[i - 1].position < level ? level - band : level + band;
+      return passing_between(i - 1, i, edge);
+    }
+    return 0.0;
+  }
+
+ private:
+  double position(double time) const { return way_ * motion_.at(time).numbers[load_position]; }
+  double speed(double time) const { return motion_.at(time).numbers[load_speed]; }
+
+  template <class Function>
+  static double root(const Function& function, double low, double high) {
+    const double at_low = function(low);
+    const double at_high = function(high);
+    if (at_low == 0.0) return low;
+    if (!(at_low * at_high < 0.0)) return high;
+    std::uintmax_t most = 100;
+    const auto close = [](double a, double b) {
+      return b - a <= 4.0 * std::numeric_limits<double>::epsilon() * b;
+    };
+    const auto [below, above] =
+        boost::math::tools::toms748_solve(function, low, high, at_low, at_high, close, most);
+    return 0.5 * (below + above);
+  }
+
+  double passing_between(std::size_t first, std::size_t second, double level) const {
+    return root([&](double time) { return position(time) - level; }, points_[first].time,
+                points_[second].time);
+  }
+
+  void add_turning(double low, double high) {
+    if (!(speed(low) * speed(high) < 0.0)) return;
+    const double turning = root([&](double time) { return speed(time); }, low, high);
+    points_.push_back({turning, position(turning)});
+  }
+
+  const hybrid::Trajectory& motion_;
+  double way_;
+  std::vector<Point> points_;
+};
+
+void measure(const Path& path, bool is_stopped, StepResponse& response) {
+  const double step = std::abs(response.step);
+  const std::optional<double> low = path.first_passing(0.1 * step);
+  const std::optional<double> high = path.first_passing(0.9 * step);
+  if (low && high) response.rise_time = *high - *low;
+  const double late = 0.8 * path.points().back().time;
+  // A sustained oscillation may end within the band by chance. It has settled only if it stays
+  // there for the whole last fifth.
+  const std::optional<double> settled = path.time_into_band(step, response.band);
+  if (settled && *settled <= late && !is_stopped) response.settling_time = settled;
+  double highest = 0.0;
+  double last_lowest = std::numeric_limits<double>::infinity();
+  double last_highest = -last_lowest;
+  for (const Point& point : path.points()) {
+    highest = std::max(highest, point.position);
+    if (point.time < late) continue;
+    last_lowest = std::min(last_lowest, point.position);
+    last_highest = std::max(last_highest, point.position);
+  }
+  if (response.is_whole) response.overshoot = std::max(0.0, highest / step - 1.0);
+  const double error = step - 0.5 * (last_lowest + last_highest);
+  response.final_error = response.step < 0.0 ? -error : error;
+  response.ripple = 0.5 * (last_highest - last_lowest);
+}
+
+/// The motion whose response is measured.
+hybrid::Trajectory step_motion(ReducedDrive drive, double step, double until, Progress& progress) {
+  RangeCheck check;
+  if (!(std::isfinite(step) && step != 0.0)) {
+    check.refuse("step", exact_text(step), "must be finite and not 0, rad");
+  }
+  check.positive("until", until, "s");
+  require_none(check.faults());
+  drive.reference = step;
+  const DriveSystem system = drive_system(drive);
+  const double way = step < 0.0 ? -1.0 : 1.0;
+  const ShaftStates rest{.motor_position = way * 0.5 * drive.backlash};
+  return hybrid::simulate(
+      system.system, drive_start(drive, system, rest),
+      {.until = until, .step_limit = most_steps_of_a_motion, .progress = &progress});
+}
+
+}  // namespace
+
+double usual_step_size(double backlash) {
+  constexpr double backlashes = 10.0;
+  constexpr double degree = std::numbers::pi / 180.0;
+  return backlash > 0.0 ? backlashes * backlash : degree;
+}
+
+Step usual_step(const ReducedDrive& drive) {
+  constexpr double swings = 20.0;
+  return {usual_step_size(drive.backlash), swings * time_scales(drive).swing};
+}
+
+StepResponse step_response(const ReducedDrive& drive, double step, double until,
+                           Progress& progress) {
+  const hybrid::Trajectory motion = step_motion(drive, step, until, progress);
+  constexpr double share = 0.05;
+  StepResponse response{.step = step, .until = motion.end_time()};
+  response.band = share * std::abs(step);
+  response.is_whole = motion.stop_reason() == hybrid::StopReason::reached_end;
+  const bool is_stopped = motion.stop_reason() == hybrid::StopReason::stopped;
+  if (motion.end_time() > 0.0) {
+    measure(Path(motion, step < 0.0 ? -1.0 : 1.0), is_stopped, response);
+  }
+  return response;
+}
+
+}  // namespace gearlash::drive

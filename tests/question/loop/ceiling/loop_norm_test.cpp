@@ -1,0 +1,84 @@
+// Ceilings beside ∫|g| in many digits, of transfer functions that are written down by hand.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "base/references.hpp"
+#include "model/reduced_drive.hpp"
+#include "question/loop/ceiling/ceiling.hpp"
+
+namespace gearlash::loop_norm_test {
+namespace {
+
+using drive::ReducedDrive;
+
+drive::Controller law_of(const Reference& loop) {
+  const auto number = [&](const char* name) { return loop.input(name); };
+  if (loop.kind() == "pid") {
+    return drive::ProportionalIntegralDerivative{.proportional = number("a"),
+                                                 .integral = number("c"),
+                                                 .derivative = number("b"),
+                                                 .filter = number("d")};
+  }
+  if (loop.kind() == "cascade") {
+    return drive::Cascade{
+        .position = number("a"), .speed = number("b"), .speed_integral = number("c")};
+  }
+  return drive::LeadLag{.gain = number("a"), .zero = number("b"), .pole = number("c")};
+}
+
+ReducedDrive drive_of(const Reference& loop) {
+  const auto number = [&](const char* name) { return loop.input(name); };
+  ReducedDrive drive;
+  drive.motor = {number("motor_inertia"), {.viscous = number("motor_viscous")}};
+  drive.load = {number("load_inertia"), {.viscous = number("load_viscous")}};
+  drive.backlash = 2.0;
+  drive.sensing = {.load_share_of_position = number("position_of_load"),
+                   .load_share_of_speed = number("speed_of_load")};
+  drive.winding = {.time_constant = number("winding"), .back_emf = number("back_emf")};
+  drive.gravity.stiffness = number("stiffness");
+  drive.controller = law_of(loop);
+  return drive;
+}
+
+/// PD and PID with a filtered derivative, cascades and lead-lag elements; windings and weights.
+TEST(OracleCeiling, IsTheNormInManyDigitsOfRandomLoops) {
+  int proved = 0;
+  double loosest = 1.0;
+  for (const Reference& loop : References("question", "ceilings")) {
+    SCOPED_TRACE(testing::Message() << loop.kind() << " " << loop["motor_inertia"]);
+    const Ceiling ceiling = ceiling_of(drive_of(loop));
+    ASSERT_EQ(ceiling.load.has_value(), loop["decays"] == 1);
+    if (!ceiling.load) continue;
+    ++proved;
+    const double load = loop.input("load");
+    const double motor = loop.input("motor");
+    EXPECT_GE(*ceiling.load, load * (1.0 - 1e-12));
+    EXPECT_GE(*ceiling.motor, motor * (1.0 - 1e-12));
+    EXPECT_LE(*ceiling.load, load * 1.0001);
+    EXPECT_LE(*ceiling.motor, motor * 1.0001);
+    loosest = std::max({loosest, *ceiling.load / load, *ceiling.motor / motor});
+  }
+  RecordProperty("largest excess over the norm", std::to_string(loosest - 1.0));
+  EXPECT_GT(proved, 35);
+}
+
+/// The sample servo of the thesis, and three of its neighbours: to four digits.
+TEST(OracleCeiling, OfTheSampleServoAndItsNeighboursInBacklashes) {
+  struct Known {
+    double damping, inertia_ratio, friction_ratio, ceiling;
+  };
+  for (const Known& known :
+       {Known{0.18861093889995897, 1.992976605137472, 0.07710100231303006, 0.8674},
+        Known{0.19, 2.0, 0.1, 0.8542}, Known{0.1, 1.0, 0.2, 1.8597},
+        Known{0.4, 4.0, 0.2, 0.5466}}) {
+    EXPECT_NEAR(
+        *ceiling_of(reduce(normal_form(known.damping, known.inertia_ratio, known.friction_ratio)))
+             .load,
+        known.ceiling, 6e-5);
+  }
+}
+
+}  // namespace
+}  // namespace gearlash::loop_norm_test
