@@ -198,23 +198,24 @@ std::vector<double> sampled_frequencies(const ReducedDrive& drive) {
   return frequencies;
 }
 
-struct SampledGain {
+struct FrequencySample {
   double frequency = 0.0;
   double value = 0.0;
 };
 
 /// Samples, and the extremes between them that cross 0.
 template <class Function>
-std::vector<SampledGain> samples_of(const Function& function, const std::vector<double>& frequencies) {
-  std::vector<SampledGain> samples;
+std::vector<FrequencySample> samples_of(const Function& function,
+                                        const std::vector<double>& frequencies) {
+  std::vector<FrequencySample> samples;
   for (const double frequency : frequencies) {
     const double value = function(frequency);
     if (std::isfinite(value)) samples.push_back({frequency, value});
   }
-  std::vector<SampledGain> extremes;
+  std::vector<FrequencySample> extremes;
   for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
     const double sign = samples[i].value < 0.0 ? -1.0 : 1.0;
-    const auto depth = [&](const SampledGain& sample) { return sign * sample.value; };
+    const auto depth = [&](const FrequencySample& sample) { return sign * sample.value; };
     const bool is_least =
         depth(samples[i]) <= depth(samples[i - 1]) && depth(samples[i]) <= depth(samples[i + 1]);
     if (!is_least) continue;
@@ -226,15 +227,16 @@ std::vector<SampledGain> samples_of(const Function& function, const std::vector<
     if (least < 0.0 && std::isfinite(least)) extremes.push_back({frequency, sign * least});
   }
   samples.insert(samples.end(), extremes.begin(), extremes.end());
-  std::sort(samples.begin(), samples.end(),
-            [](const SampledGain& a, const SampledGain& b) { return a.frequency < b.frequency; });
+  std::sort(samples.begin(), samples.end(), [](const FrequencySample& a, const FrequencySample& b) {
+    return a.frequency < b.frequency;
+  });
   return samples;
 }
 
 /// Where a function of the frequency crosses 0, in order.
 template <class Function>
 std::vector<double> crossings(const Function& function, const std::vector<double>& frequencies) {
-  const std::vector<SampledGain> samples = samples_of(function, frequencies);
+  const std::vector<FrequencySample> samples = samples_of(function, frequencies);
   std::vector<double> found;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const auto& [low, at_low] = samples[i - 1];
