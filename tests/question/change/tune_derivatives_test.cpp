@@ -15,7 +15,7 @@
 #include "question/pd_drive.hpp"
 #include "question/series/toleranced_samples.hpp"
 
-namespace gearlash::tuned_slopes_test {
+namespace gearlash::tune_derivatives_test {
 namespace {
 
 TuneTask hunting_task() {
@@ -110,4 +110,4 @@ TEST(TunedSlopes, OfADriveThatRestsAreThoseOfItsLoop) {
 }
 
 }  // namespace
-}  // namespace gearlash::tuned_slopes_test
+}  // namespace gearlash::tune_derivatives_test
