@@ -29,7 +29,7 @@ std::string cores_text(std::size_t cores) {
 Entry enter(const std::string& name, const Grid& grid, const Workers& how) {
   const std::string title = "Scaling/" + name;
   auto table = std::make_shared<Table>(table_of(grid.size()));
-  const GridPoints points(grid);
+  const Family family(grid);
   benchmark::RegisterBenchmark(
       title.c_str(),
       [=](benchmark::State& state) {

@@ -17,7 +17,7 @@ Grid thesis_grid() {
 
 std::vector<NormalizedServo> servos_of(const Grid& grid) {
   std::vector<NormalizedServo> servos;
-  const GridPoints points(grid);
+  const Family family(grid);
   for (std::size_t i = 0; i < grid.size(); ++i) {
     servos.push_back(points.normal_form_at(values_at(grid, i)));
   }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "question/map/grid_evaluation.hpp"
+#include "question/family/evaluation.hpp"
 
 namespace gearlash::benchmarks {
 

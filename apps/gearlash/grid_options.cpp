@@ -13,7 +13,7 @@
 #include "base/range_check.hpp"
 #include "machine_faults.hpp"
 #include "picture/grid_map.hpp"
-#include "question/map/grid_evaluation.hpp"
+#include "question/family/evaluation.hpp"
 #include "question/map/grid_pieces.hpp"
 #include "question/map/hunting_boundary.hpp"
 #include "terminal.hpp"
@@ -176,7 +176,7 @@ void require_room(const Grid& grid) {
 
 /// All quantities for a table; only the needed ones for pictures alone.
 std::vector<Quantity> quantities_of(const GridTask& task) {
-  const EnginesNeeded engines = GridPoints(task.grid).engines();
+  const EnginesNeeded engines = Family(task.grid).engines();
   if (task.table.empty()) {
     std::vector<Quantity> drawn = {Quantity::growth_at_rest, task.quantity};
     const auto ceiling = ceiling_over(task.quantity);
@@ -194,7 +194,7 @@ std::unique_ptr<OutputFile> opened(const std::string& file) {
   return file.empty() ? nullptr : std::make_unique<OutputFile>(file);
 }
 
-void write_table(const GridTask& task, const GridTable& table, const GridCount& count,
+void write_table(const GridTask& task, const GridTable& table, const RowCount& count,
                  OutputFile& output) {
   const auto sink = [&](std::string_view text) { output.write(text); };
   if (ending_of(task.table) == ".csv") return write_grid_csv(table, sink);
@@ -253,7 +253,7 @@ GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption
   return task;
 }
 
-std::string solved_text(const GridCount& count) {
+std::string solved_text(const RowCount& count) {
   const std::size_t servos = count.solved.side_by_side + count.solved.one_by_one;
   std::string text = fmt::format("{} {}", count.points(), count.searched > 0 ? "drives" : "servos");
   if (servos > 0 || count.searched == 0) {
@@ -269,7 +269,7 @@ std::string solved_text(const GridCount& count) {
 namespace {
 
 /// Writes each block while the next one is computed, instead of output.write().
-GridCount write_netcdf(const GridTask& task, const Provenance& provenance, const OutputFile& output,
+RowCount write_netcdf(const GridTask& task, const Provenance& provenance, const OutputFile& output,
                        Progress& progress) {
   constexpr std::size_t points_at_a_time = std::size_t{1} << 15U;  // 3 MB, which caches hold
   const std::vector<Quantity> quantities = quantities_of(task);
@@ -278,7 +278,7 @@ GridCount write_netcdf(const GridTask& task, const Provenance& provenance, const
                          {.grid = task.grid, .quantities = quantities, .provenance = provenance});
   std::vector<double> growth_at_rest;
   if (task.has_boundary) growth_at_rest.reserve(task.grid.size());
-  const GridCount count = evaluate_in_pieces(
+  const RowCount count = evaluate_in_pieces(
       task.grid, quantities, 0, points_at_a_time,
       [&](const GridPiece& piece) {
         file.write(piece);
@@ -305,7 +305,7 @@ ExitStatus make_grid_files(const GridTask& task, LimitedWork& work, const Proven
   std::optional<TerminalProgress> progress;
   progress.emplace(work, task.verb == "map" ? "Map" : "Chart", task.grid.size(), "points");
   GridTable table{.grid = task.grid, .provenance = provenance, .angle = task.angle};
-  GridCount count;
+  RowCount count;
   Extras extras;
   std::string made;
   const auto commit = [&](OutputFile& file) {
@@ -317,8 +317,7 @@ ExitStatus make_grid_files(const GridTask& task, LimitedWork& work, const Proven
     count = write_netcdf(task, provenance, *output, *progress);
   } else {
     table.table = Table(task.grid.size(), quantities_of(task));
-    count = evaluate(task.grid, GridPoints(task.grid), 0, task.grid.size(), columns_of(table.table),
-                     *progress);
+    count = evaluate(Family(task.grid), task.grid, 0, table.table, *progress);
     if (task.has_boundary) {
       progress.emplace(work, "Borders");
       add_borders(table, *progress);

@@ -66,7 +66,7 @@ GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption
                         const std::string& verb, const std::vector<std::string>& kinds);
 
 /// "20 servos, 18 solved side by side, 2 one by one"
-std::string solved_text(const GridCount& count);
+std::string solved_text(const RowCount& count);
 
 using GridPicture = std::function<std::string(const GridTable&, PictureFormat)>;
 

@@ -88,7 +88,7 @@ ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
   LimitedWork work(limits);
   std::optional<TerminalProgress> progress;
   progress.emplace(work, "Sweep", sweep.grid.size(), "points");
-  const GridCount done =
+  const RowCount done =
       run_sweep(sweep, provenance_of(options, provenance), options.output,
                 options.resume ? SweepStart::resume : SweepStart::anew, *progress);
   progress.reset();  // wiped before anything is printed

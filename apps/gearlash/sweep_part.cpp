@@ -139,7 +139,7 @@ SweepRecord SweepPart::read_record(const GridContents& contents) const {
 }
 
 void SweepPart::write_record(const GridContents& contents, const SweepRecord& record) {
-  const GridCount& count = record.count;
+  const RowCount& count = record.count;
   Json json = {{"kind", kind},
                {"version", contents.provenance.version},
                {"points", contents.grid.size()},

@@ -7,13 +7,13 @@
 
 #include "base/checksum.hpp"
 #include "output/grid_description.hpp"
-#include "question/map/grid_evaluation.hpp"
+#include "question/family/evaluation.hpp"
 
 namespace gearlash {
 
 /// The progress of an unfinished sweep.
 struct SweepRecord {
-  GridCount count;  ///< of the points done
+  RowCount count;  ///< of the points done
   Checksum data{};  ///< of their values
 };
 

@@ -64,7 +64,7 @@ GridNetcdf reopened(const SweepPart& part, const GridContents& contents,
 
 }  // namespace
 
-GridCount run_sweep(const SweepFile& sweep, const Provenance& provenance,
+RowCount run_sweep(const SweepFile& sweep, const Provenance& provenance,
                     const std::filesystem::path& output, SweepStart start, Progress& progress) {
   SweepPart part(output);
   if (part.is_begun() && start == SweepStart::anew) {
@@ -80,7 +80,7 @@ GridCount run_sweep(const SweepFile& sweep, const Provenance& provenance,
   if (is_new) part.write_record(contents, recorded);
   GridNetcdf file = is_new ? GridNetcdf::create(part.data(), part.shown_output(), contents)
                            : reopened(part, contents, recorded);
-  const GridCount count = evaluate_in_pieces(
+  const RowCount count = evaluate_in_pieces(
       sweep.grid, sweep.quantities, recorded.count.points(), longest_piece,
       [&](const GridPiece& piece) {
         file.write(piece);

@@ -5,7 +5,7 @@
 
 #include "input/sweep_file.hpp"
 #include "output/report_units.hpp"
-#include "question/map/grid_evaluation.hpp"
+#include "question/family/evaluation.hpp"
 
 namespace gearlash {
 
@@ -24,7 +24,7 @@ enum class SweepStart : bool {
 /// `progress` stopped the work. The command of `provenance` is written into the file. Throws
 /// InvalidInput for an unfinished sweep that is not to be resumed, or that is of another sweep file
 /// or version. Throws OutputError if a file cannot be written or the disk has too little room.
-GridCount run_sweep(const SweepFile& sweep, const Provenance& provenance,
+RowCount run_sweep(const SweepFile& sweep, const Provenance& provenance,
                     const std::filesystem::path& output, SweepStart start,
                     Progress& progress = no_progress());
 

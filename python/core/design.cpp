@@ -71,12 +71,12 @@ py::object answered_samples(py::handle series, py::handle sampling, py::handle q
   return results ? py::object(array_of(std::move(*results))) : py::none();
 }
 
-using SampleRecords = py::array_t<detail::DrawnResult, py::array::c_style | py::array::forcecast>;
+using SampleRecords = py::array_t<detail::SampleResult, py::array::c_style | py::array::forcecast>;
 
 py::object study_of_samples(py::handle sampling, py::handle questions,
                             const SampleRecords& records) {
   const std::span results(records.data(), static_cast<std::size_t>(records.size()));
-  for (const detail::DrawnResult& one : results) {
+  for (const detail::SampleResult& one : results) {
     if (static_cast<std::size_t>(one.verdict) >= std::size(Words<Verdict>::all)) {
       throw py::value_error("unknown verdict");
     }
@@ -114,7 +114,7 @@ py::object tuned(py::handle task, py::handle effort, const py::object& progress)
 }  // namespace
 
 void add_design(py::module_& module) {
-  PYBIND11_NUMPY_DTYPE(detail::DrawnResult, growth_at_rest, amplitude, frequency, verdict, meets,
+  PYBIND11_NUMPY_DTYPE(detail::SampleResult, growth_at_rest, amplitude, frequency, verdict, meets,
                        refused);
   module.def("target", [](const std::string& text, py::handle drive) {
     return to_python(parse_target(text, drive_of(drive)));

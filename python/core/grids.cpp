@@ -9,7 +9,7 @@
 #include "module.hpp"
 #include "output/grid_description.hpp"
 #include "question/axis.hpp"
-#include "question/map/grid_points.hpp"
+#include "question/family/family.hpp"
 #include "records.hpp"
 
 namespace gearlash::python {
@@ -119,7 +119,7 @@ void add_grids(py::module_& module) {
                if (!found.empty()) throw InvalidInput(found);
              });
   module.def("is_closed_grid", [](py::handle drive, py::handle axes) {
-    return !GridPoints(grid_of(drive, axes)).engines().search;
+    return !Family(grid_of(drive, axes)).engines().search;
   });
   module.def("description", description);
   module.def("path_named", [](const std::string& name, py::handle drive) {

@@ -310,7 +310,7 @@ class Search {
       const double moved = motion.moved_since(order);
       if (moved > closely * size || moved > motion.moved_between(order, 2 * order)) continue;
       if (drifts(motion, order)) continue;
-      if (known_.try_from(motion.arrival, order, Wanted::stable)) return;
+      if (known_.try_from(motion.arrival, order, WantedOrbits::stable)) return;
     }
   }
 

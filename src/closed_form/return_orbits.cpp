@@ -129,7 +129,7 @@ int KnownOrbits::least_order(const ReturnOrbit& orbit) {
   return orbit.order;
 }
 
-bool KnownOrbits::try_from(const Arrival& start, int order, Wanted wanted) {
+bool KnownOrbits::try_from(const Arrival& start, int order, WantedOrbits wanted) {
   const std::optional<ReturnOrbit> orbit = newton(start, order);
   if (!orbit || distance_to_known(orbit->arrival) < 1e-7) return false;
   // On the boundary of hunting the motor creeps without end. Such a cycle cannot be distinguished
@@ -142,7 +142,7 @@ bool KnownOrbits::try_from(const Arrival& start, int order, Wanted wanted) {
   const int least = least_order(*orbit);
   if (least < order) return try_from(orbit->arrival, least, wanted);
   const bool stable = spectral_radius(orbit->map.slope) < 1.0;
-  if (wanted == Wanted::stable && !stable) return false;
+  if (wanted == WantedOrbits::stable && !stable) return false;
   known_.push_back({*orbit, stable});
   return true;
 }

@@ -54,7 +54,7 @@ struct KnownOrbit {
 };
 
 /// Which cycles an attempt adds. Irregular motion passes near infinitely many unstable ones.
-enum class Wanted { any, stable };
+enum class WantedOrbits { any, stable };
 
 /// The cycles of one servo that were found so far.
 class KnownOrbits {
@@ -65,7 +65,7 @@ class KnownOrbits {
   /// known. (If it repeats after fewer traversals, it is added as a cycle of so many.) Steps are
   /// halved until the mismatch falls. The attempt ends as soon as a step leads straight to a known
   /// cycle. Returns whether a cycle was added.
-  bool try_from(const Arrival& start, int order, Wanted wanted = Wanted::any);
+  bool try_from(const Arrival& start, int order, WantedOrbits wanted = WantedOrbits::any);
 
   const std::vector<KnownOrbit>& list() const { return known_; }
   /// Whether a cycle was met whose multiplier is 1 to within rounding. It is not in the list.

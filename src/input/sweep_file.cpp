@@ -7,7 +7,7 @@
 #include "input/section_reader.hpp"
 #include "input/text_file.hpp"
 #include "input/toml_document.hpp"
-#include "question/map/grid_evaluation.hpp"
+#include "question/family/evaluation.hpp"
 
 namespace gearlash {
 namespace {
@@ -60,7 +60,7 @@ class SweepReader {
     findings_.take(faults(file.grid, fields), &same_field, section.place());
     findings_.require_none();
     if (file.quantities.empty()) {
-      const auto known = quantities_known(GridPoints(file.grid).engines());
+      const auto known = quantities_known(Family(file.grid).engines());
       file.quantities.assign(known.begin(), known.end());
     }
     return file;

@@ -6,7 +6,7 @@
 #include "model/reduced_drive.hpp"
 #include "output/grid_table.hpp"
 #include "output/json_values.hpp"
-#include "question/map/grid_evaluation.hpp"
+#include "question/family/evaluation.hpp"
 
 namespace gearlash {
 namespace {

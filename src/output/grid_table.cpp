@@ -83,7 +83,7 @@ bool has_regions(const Grid& grid) {
   const auto is_of_numbers = [&](const Axis& axis) {
     return parameter_of(axis, grid.drive)->choices.empty() && std::isfinite(axis.values.back());
   };
-  return GridPoints(grid).engines().search &&
+  return Family(grid).engines().search &&
          std::all_of(grid.axes.begin(), grid.axes.end(), is_of_numbers);
 }
 
@@ -98,7 +98,7 @@ void add_borders(GridTable& table, Progress& progress) {
 }
 
 std::string certainty_of(const Grid& grid) {
-  const EnginesNeeded engines = GridPoints(grid).engines();
+  const EnginesNeeded engines = Family(grid).engines();
   const std::string plastic = name_of(grid.proved ? Certainty::enclosed : Certainty::computed);
   const std::string searched = name_of(Certainty::searched);
   if (engines.search) {

@@ -8,7 +8,7 @@
 
 #include "output/output_file.hpp"
 #include "output/report_units.hpp"
-#include "question/map/grid_points.hpp"
+#include "question/family/family.hpp"
 #include "question/map/motion_regions.hpp"
 
 namespace gearlash {

@@ -162,7 +162,7 @@ std::vector<Row> number_rows(const ToleranceReport& report) {
 /// Empty where the search for it was stopped.
 std::string worst_text(const ToleranceReport& report) {
   if (report.worst.numbers.empty()) return "";
-  const detail::DrawnResult& worst = report.worst.result;
+  const detail::SampleResult& worst = report.worst.result;
   std::string text = "The worst sample found within the tolerances ";
   if (worst.verdict == Verdict::cannot_hunt && !std::isnan(worst.growth_at_rest)) {
     text += "cannot hunt (growth at rest " + significant(worst.growth_at_rest, usual_digits) + ")";
@@ -300,7 +300,7 @@ Json json_backlash(const ToleranceReport& report) {
           {"uncertainty", json_bounds(widest.uncertainty)}};
 }
 
-Json json_worst(const detail::DrawnResult& worst) {
+Json json_worst(const detail::SampleResult& worst) {
   return {{"verdict", name_of(worst.verdict)},
           {"growth_at_rest", json_number(worst.growth_at_rest)},
           {"amplitude", json_number(worst.amplitude)},

@@ -6,23 +6,23 @@
 
 #include "picture/grid_words.hpp"
 #include "picture/hunting_curve.hpp"
-#include "question/map/grid_evaluation.hpp"
+#include "question/family/evaluation.hpp"
 #include "question/map/hunting_end.hpp"
 
 namespace gearlash {
 namespace {
 
 /// One curve of the chart: rows `first` … of the table, over the last axis.
-ChartCurve curve_of(const GridTable& table, const GridPoints& points, std::size_t first,
+ChartCurve curve_of(const GridTable& table, const Family& family, std::size_t first,
                     Quantity quantity) {
   const Axis& x = table.grid.axes.back();
   std::vector<double> place = values_at(table.grid, first);
   const auto servo_at = [&](double on_curve) {
     place.back() = on_curve;
-    const std::optional<FinalServo> servo = points.servo_at(place);
+    const std::optional<FinalServo> servo = family.servo_at(place);
     return servo ? servo->closed_form.servo : NormalizedServo{.damping = 1.0};
   };
-  const bool is_plastic = !points.engines().bounces && !points.engines().search;
+  const bool is_plastic = !family.engines().bounces && !family.engines().search;
   const double limit = limit_where_hunting_ends(quantity, servo_at(x.values.front()).backlash)
                            .value_or(std::numeric_limits<double>::infinity());
   const bool ends = is_plastic && std::isfinite(limit);
@@ -30,7 +30,7 @@ ChartCurve curve_of(const GridTable& table, const GridPoints& points, std::size_
   for (std::size_t i = 0; i < x.values.size(); ++i) {
     const Verdict verdict = table.table.verdict(first + i);
     // For searched drives rest has a value: an amplitude of 0.
-    CurveServo servo{x.values[i], points.engines().search
+    CurveServo servo{x.values[i], family.engines().search
                                       ? table.table[quantity][first + i]
                                       : of_motion(table.table, quantity, first + i)};
     if (ends && verdict == Verdict::hunts) servo.hunts = true;
@@ -74,7 +74,7 @@ void draw_in(double x_unit, double y_unit, ChartCurve& curve) {
 
 LineChart chart_of(const GridTable& table, Quantity quantity) {
   const Grid& grid = table.grid;
-  const GridPoints points(grid);
+  const Family family(grid);
   const Axis& x = grid.axes.back();
   LineChart chart{.title = title_of(quantity),
                   .subtitle = subtitle_of(grid),
@@ -84,13 +84,13 @@ LineChart chart_of(const GridTable& table, Quantity quantity) {
   bool nothing_drawn = true;
   for (std::size_t i = 0; i < curves; ++i) {
     const std::size_t first = i * x.values.size();
-    ChartCurve curve = curve_of(table, points, first, quantity);
+    ChartCurve curve = curve_of(table, family, first, quantity);
     const bool is_drawn = std::any_of(curve.line.begin(), curve.line.end(),
                                       [](const auto& point) { return std::isfinite(point.y); });
     if (grid.axes.size() > 1) {
-      const Axis& family = grid.axes.front();
-      curve.name = in_words(family.path) + " " +
-                   text_with_unit(family, grid.drive, family.values[i], table.angle);
+      const Axis& named = grid.axes.front();
+      curve.name = in_words(named.path) + " " +
+                   text_with_unit(named, grid.drive, named.values[i], table.angle);
       if (!is_drawn) curve.name += ": " + word_for_nothing(table, first, x.values.size(), quantity);
     }
     for (const ChartPoint& point : curve.line) {
@@ -98,7 +98,7 @@ LineChart chart_of(const GridTable& table, Quantity quantity) {
     }
     if (!is_drawn) curve.line.clear();
     nothing_drawn = nothing_drawn && !is_drawn;
-    mark_points(curve, has_words(x, grid.drive) || points.engines().search);
+    mark_points(curve, has_words(x, grid.drive) || family.engines().search);
     if (has_words(x, grid.drive)) curve.line.clear();
     if (!curve.ends.empty()) chart.end_meaning = "hunting ends";
     draw_in(drawn_unit(x, grid.drive, table.angle), drawn_unit(quantity, grid, table.angle), curve);

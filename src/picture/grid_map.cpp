@@ -7,7 +7,7 @@
 #include "picture/cell_map.hpp"
 #include "picture/grid_words.hpp"
 #include "picture/hatching.hpp"
-#include "question/map/grid_evaluation.hpp"
+#include "question/family/evaluation.hpp"
 #include "question/map/hunting_boundary.hpp"
 
 namespace gearlash {
@@ -86,14 +86,14 @@ ContourMap in_radians(const GridTable& table, Quantity quantity) {
   const Paper paper(map.x, map.y);
   map.hatching = hatching(table, paper);
   if (!table.dissipative_boundary) return map;
-  const GridPoints points(grid);
+  const Family family(grid);
   map.inner_boundary = *table.dissipative_boundary;
   map.inner_meaning = "none, any restitution";
   map.inner_hatching =
       hatching(map.inner_boundary, paper,
                {.stretch =
                     [&](const MapPoint& middle) {
-                      return side_of_dissipation(servo_at(points, middle)) == Side::outside;
+                      return side_of_dissipation(servo_at(family, middle)) == Side::outside;
                     }},
                HatchLines::second);
   return map;
@@ -183,7 +183,7 @@ std::string draw_grid_map(const GridTable& table, Quantity quantity, PictureForm
     any_words = any_words || has_words(axis, grid.drive);
     is_small = is_small && axis.values.size() <= most_cells;
   }
-  const bool as_cells = any_words || (is_small && GridPoints(grid).engines().search);
+  const bool as_cells = any_words || (is_small && Family(grid).engines().search);
   return as_cells ? draw_cell_map(cells_of(table, quantity), format)
                   : draw_contour_map(map_of(table, quantity), format);
 }

@@ -70,7 +70,7 @@ std::vector<std::pair<std::string, double>> logarithmic_tics(double low, double 
 }  // namespace
 
 std::string subtitle_of(const Grid& grid) {
-  if (GridPoints(grid).engines().search) return certainty_of(grid);
+  if (Family(grid).engines().search) return certainty_of(grid);
   std::string text;
   for (const NormalFormNumber& number : normal_form_numbers) {
     const bool is_there =

@@ -100,12 +100,12 @@ std::vector<MapCurve> hatching(const std::vector<MapCurve>& boundary, const Pape
 }
 
 std::vector<MapCurve> hatching(const GridTable& table, const Paper& paper) {
-  const GridPoints points(table.grid);
+  const Family family(table.grid);
   return hatching(
       table.hunting_boundary.value(), paper,
       {.stretch =
            [&](const MapPoint& middle) {
-             return side_of_hunting(servo_at(points, middle)) == Side::outside;
+             return side_of_hunting(servo_at(family, middle)) == Side::outside;
            },
        .left_out = [&](const MapPoint& middle) { return !is_at_rest_for_good(table, middle); }});
 }

@@ -501,6 +501,11 @@ bool is_at_rest(Verdict verdict) {
   return verdict == Verdict::cannot_hunt || verdict == Verdict::comes_to_rest;
 }
 
+bool is_figure(Quantity quantity) {
+  const QuantityScope scope = info_of(quantity).scope;
+  return scope != QuantityScope::answer && scope != QuantityScope::motion;
+}
+
 void ask_for(Quantity quantity, const Drive& base, Wanted& wanted) {
   switch (info_of(quantity).scope) {
     case QuantityScope::ceiling:

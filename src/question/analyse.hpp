@@ -43,6 +43,9 @@ bool is_decided(const Answer& answer);
 /// Whether every motion ends at rest: cannot_hunt or comes_to_rest.
 bool is_at_rest(Verdict verdict);
 
+/// Whether the quantity is computed without the motions that the drive ends in.
+bool is_figure(Quantity quantity);
+
 /// Adds to `wanted` what the quantity is of. `base`: the drive of the question, whose usual_step()
 /// all drives beside it make too.
 void ask_for(Quantity quantity, const Drive& base, Wanted& wanted);

@@ -12,7 +12,7 @@
 #include "picture/grid_words.hpp"
 #include "picture_reply.hpp"
 #include "question/map/bifurcations.hpp"
-#include "question/map/grid_evaluation.hpp"
+#include "question/family/evaluation.hpp"
 
 namespace gearlash::web {
 namespace {
@@ -63,8 +63,8 @@ Json map_reply(const Json& request, const WrittenDrive& written, Numbers& number
   require_few(grid);
   constexpr std::array quantities = {Quantity::growth_at_rest, Quantity::amplitude};
   table.table = Table(grid.size(), quantities);
-  const GridCount count =
-      evaluate(grid, GridPoints(grid), 0, grid.size(), columns_of(table.table), progress);
+  const RowCount count =
+      evaluate(Family(grid), grid, 0, table.table, progress);
   add_borders(table, progress);
   Json json = contour_map_json(map_of(table, Quantity::amplitude), numbers);
   json["axes"] = {{"x", axis_facts(grid.axes[1], grid.drive, written.angle)},

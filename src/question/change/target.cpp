@@ -178,11 +178,6 @@ TargetParts parts_of(const Target& target, bool (*is_chosen)(Quantity)) {
   return parts;
 }
 
-bool is_figure(Quantity quantity) {
-  const QuantityScope scope = info_of(quantity).scope;
-  return scope != QuantityScope::answer && scope != QuantityScope::motion;
-}
-
 bool is_of_boxes(Quantity quantity) {
   return quantity == Quantity::growth_at_rest || quantity == Quantity::amplitude ||
          quantity == Quantity::frequency;

@@ -49,8 +49,6 @@ struct TargetParts {
 bool is_empty(const Target& target);
 /// The conditions on the verdict, and the limits of the quantities that are chosen.
 TargetParts parts_of(const Target& target, bool (*is_chosen)(Quantity));
-/// Whether the quantity is computed without the motions that the drive ends in.
-bool is_figure(Quantity quantity);
 
 /// Whether the closed form bounds the quantity over boxes and computes it in lanes: growth at rest,
 /// amplitude, frequency.

@@ -22,7 +22,7 @@
 #include "question/change/tune_derivatives.hpp"
 #include "question/loop/linear_loop.hpp"
 #include "question/series/corner_sample.hpp"
-#include "question/series/drawn_values.hpp"
+#include "question/series/samples.hpp"
 #include "question/series/toleranced_drive.hpp"
 
 namespace gearlash {
@@ -84,7 +84,8 @@ struct JudgedLoop {
 /// The units of a series with tuned values.
 class Units {
  public:
-  Units(const TuneTask& task, const TuneEffort& effort) : task_(task) {
+  Units(const TuneTask& task, const TuneEffort& effort)
+      : task_(task), axes_(axes_of(task.series)) {
     add(means_of(task.series));
     const std::size_t width = task.series.varied.size();
     if (width == 0) return;
@@ -92,7 +93,7 @@ class Units {
     if (effort.units <= all_.size()) return;
     const SamplePlan plan{
         .points = effort.units - all_.size(), .replicates = 2, .seed = effort.seed};
-    const Values drawn = detail::DrawnValues(task.series, plan, 1).of(0, plan.points);
+    const Values drawn = detail::SampleValues(task.series, plan, 1).of(0, plan.points);
     for (std::size_t i = 0; i < drawn.size(); i += width) {
       add({drawn.begin() + static_cast<std::ptrdiff_t>(i),
            drawn.begin() + static_cast<std::ptrdiff_t>(i + width)});
@@ -109,7 +110,7 @@ class Units {
   }
 
   Drive drive(std::size_t unit, const Values& tuned) const {
-    return searched_drive_with({nominal(tuned), task_.series.varied}, all_[unit]);
+    return drive_with(nominal(tuned), axes_, all_[unit], Breakaway::keeps_its_ratio);
   }
 
   JudgedLoop loop(std::size_t unit, const Values& tuned) const {
@@ -186,6 +187,7 @@ class Units {
   }
 
   const TuneTask& task_;
+  std::vector<Axis> axes_;  ///< of the series
   std::vector<Values> all_;
 };
 

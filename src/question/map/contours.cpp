@@ -6,7 +6,7 @@
 #include <span>
 
 #include "base/special_numbers.hpp"
-#include "question/map/grid_evaluation.hpp"
+#include "question/family/evaluation.hpp"
 #include "question/map/hunting_boundary.hpp"
 #include "question/map/hunting_end.hpp"
 
@@ -52,11 +52,11 @@ double limit_beside(const NormalizedServo& servo, Quantity quantity) {
 }
 
 /// The quantity at a place with plastic contact, or its limit if the servo does not hunt.
-double worked_out(const GridPoints& points, Quantity quantity, const MapPoint& place) {
-  const PointAnswer answer = answer_at(points, std::array{place.y, place.x}, quantity);
+double worked_out(const Family& family, Quantity quantity, const MapPoint& place) {
+  const PointAnswer answer = answer_at(family, std::array{place.y, place.x}, quantity);
   const double value = of_motion(quantity, answer.verdict, answer.value);
   return std::isnan(value) && answer.verdict == Verdict::cannot_hunt
-             ? limit_beside(servo_at(points, place).value(), quantity)
+             ? limit_beside(servo_at(family, place).value(), quantity)
              : value;
 }
 
@@ -129,8 +129,8 @@ std::vector<double> round_levels(std::vector<double> values) {
 
 std::vector<Contour> contours_of(const Grid& grid, const Table& table, Quantity quantity,
                                  const std::vector<double>& levels) {
-  const GridPoints points(grid);
-  const bool plastic = !points.engines().bounces && !points.engines().search;
+  const Family family(grid);
+  const bool plastic = !family.engines().bounces && !family.engines().search;
   const std::size_t width = grid.axes[1].values.size();
   std::vector<double> values(table.rows());
   for (std::size_t row = 0; row < values.size(); ++row) {
@@ -138,7 +138,7 @@ std::vector<Contour> contours_of(const Grid& grid, const Table& table, Quantity 
     if (!plastic || !std::isnan(values[row]) || table.verdict(row) != Verdict::cannot_hunt)
       continue;
     const MapPoint place{grid.axes[1].values[row % width], grid.axes[0].values[row / width]};
-    values[row] = limit_beside(servo_at(points, place).value(), quantity);
+    values[row] = limit_beside(servo_at(family, place).value(), quantity);
   }
   std::vector<Contour> contours;
   for (const double level : levels) {
@@ -147,7 +147,7 @@ std::vector<Contour> contours_of(const Grid& grid, const Table& table, Quantity 
     for (const double value : values) corners.push_back(side_of(value, level));
     const auto side_at = [&](const MapPoint& place) {
       return side_of(
-          plastic ? worked_out(points, quantity, place) : interpolated(grid, values, place), level);
+          plastic ? worked_out(family, quantity, place) : interpolated(grid, values, place), level);
     };
     contours.push_back({level, boundary_of_region(grid.axes[1], grid.axes[0], corners, side_at,
                                                   picture_accuracy)});

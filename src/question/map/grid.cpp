@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/range_check.hpp"
-#include "question/map/grid_evaluation.hpp"
+#include "question/family/evaluation.hpp"
 
 namespace gearlash {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 std::vector<Fault> faults_of_corners(const Grid& grid, bool are_axes_sound) {
   if (!are_axes_sound) return {};  // they cannot replace faulty values of the drive
   std::vector<Fault> found;
-  for (const std::vector<double>& corner : corners_of(grid)) {
+  for (const std::vector<double>& corner : corners_of(grid.axes)) {
     Drive drive = grid.drive;
     set_on(grid.axes, drive, corner);
     found = faults(drive);
@@ -155,14 +155,21 @@ std::size_t Table::smallest(Quantity quantity, std::size_t number) const {
 Table evaluate(const Grid& grid, std::span<const Quantity> quantities, Progress& progress) {
   require_none(faults(grid));
   Table table(grid.size(), quantities, grid.axes.empty() ? 0 : grid.axes.back().values.size());
-  evaluate(grid, GridPoints(grid), 0, grid.size(), columns_of(table), progress);
+  evaluate(Family(grid), grid, 0, table, progress);
   return table;
 }
 
 Table evaluate(const DriveList& list, std::span<const Quantity> quantities, Progress& progress) {
   require_none(faults(list));
   Table table(list.size(), quantities);
-  evaluate(list, GridPoints(grid_of_ends(list)), columns_of(table), progress);
+  const FamilyRows rows{.count = list.size(),
+                        .fill = [&](std::size_t first, std::span<double> values) {
+                          const std::size_t width = list.paths.size();
+                          for (std::size_t i = 0; i < values.size(); ++i) {
+                            values[i] = list.values[i % width][first + i / width];
+                          }
+                        }};
+  evaluate(Family(grid_of_ends(list)), rows, {.columns = columns_of(table)}, progress);
   return table;
 }
 

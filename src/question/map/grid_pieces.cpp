@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "base/progress_part.hpp"
-#include "question/map/followed_drives.hpp"
+#include "question/family/followed_drives.hpp"
 
 namespace gearlash {
 namespace {
@@ -56,28 +56,39 @@ class OneAtATime : public Progress {
 };
 
 struct WorkedOut {
-  GridCount count;
+  RowCount count;
   double seconds;
 };
 
 }  // namespace
 
-GridCount evaluate_in_pieces(const Grid& grid, std::span<const Quantity> quantities,
+std::size_t box_length(const Grid& grid, std::size_t first, std::size_t most) {
+  std::size_t whole = 1;  // points of the axes that the box contains entirely
+  for (auto axis = grid.axes.rbegin(); axis != grid.axes.rend(); ++axis) {
+    const std::size_t values = axis->values.size();
+    const std::size_t left = values - first / whole % values;
+    if (left < values || whole * values > most) return std::min(left, most / whole) * whole;
+    whole *= values;
+  }
+  return whole;
+}
+
+RowCount evaluate_in_pieces(const Grid& grid, std::span<const Quantity> quantities,
                              std::size_t first, std::size_t longest, const GridSink& take,
                              Progress& progress, const Stopwatch& seconds) {
-  const GridPoints grid_points(grid);
+  const Family family(grid);
   const std::size_t points = grid.size();
   const auto share_of = [&](std::size_t done) {
     return static_cast<double>(done) / static_cast<double>(points);
   };
   OneAtATime heard(progress);
-  GridCount total;
+  RowCount total;
   const auto is_stopped = [&] { return first < points && !heard.go_on(share_of(first)); };
   if (is_stopped()) {
     total.stopped = true;
     return total;
   }
-  PieceLength length(grid_points.engines(), longest, seconds);
+  PieceLength length(family.engines(), longest, seconds);
   const auto now = [&] { return seconds ? seconds() : 0.0; };
   // Computes a piece into a table with one row per point.
   const auto work_out = [&](std::size_t begin, Table& table) {
@@ -87,7 +98,7 @@ GridCount evaluate_in_pieces(const Grid& grid, std::span<const Quantity> quantit
     return std::async(std::launch::async | std::launch::deferred, [&, begin, count] {
       const double start = now();
       ProgressPart part(heard, share_of(begin), share_of(begin + count));
-      const GridCount solved = evaluate(grid, grid_points, begin, count, columns_of(table), part);
+      const RowCount solved = evaluate(family, grid, begin, table, part);
       return WorkedOut{solved, now() - start};
     });
   };

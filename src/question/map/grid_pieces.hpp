@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <functional>
 
-#include "question/map/grid_evaluation.hpp"
+#include "question/family/evaluation.hpp"
 
 namespace gearlash {
 
@@ -13,7 +13,7 @@ namespace gearlash {
 struct GridPiece {
   std::size_t first;
   const Table& table;
-  GridCount count;
+  RowCount count;
 };
 using GridSink = std::function<void(const GridPiece&)>;
 
@@ -31,8 +31,13 @@ using Stopwatch = std::function<double()>;
 /// then lost; the count reports the stop. Precondition: as in evaluate(), longest > 0, `first` is 0
 /// or the end of a box. Searched drives have the same answers in pieces as at once if `longest` is
 /// a multiple of longest_run.
-GridCount evaluate_in_pieces(const Grid& grid, std::span<const Quantity> quantities,
+RowCount evaluate_in_pieces(const Grid& grid, std::span<const Quantity> quantities,
                              std::size_t first, std::size_t longest, const GridSink& take,
                              Progress& progress = no_progress(), const Stopwatch& seconds = {});
+
+/// The number of points from `first` on, `most` at most, that form a box of the grid: some values
+/// of one axis with all values of the axes after it. Precondition: `first` is 0 or the end of such
+/// a box; most > 0.
+std::size_t box_length(const Grid& grid, std::size_t first, std::size_t most);
 
 }  // namespace gearlash

@@ -16,8 +16,8 @@ Side side_of(double growth_at_rest) {
 
 }  // namespace
 
-std::optional<NormalizedServo> servo_at(const GridPoints& points, const MapPoint& place) {
-  const std::optional<FinalServo> servo = points.servo_at(std::array{place.y, place.x});
+std::optional<NormalizedServo> servo_at(const Family& family, const MapPoint& place) {
+  const std::optional<FinalServo> servo = family.servo_at(std::array{place.y, place.x});
   return servo ? std::optional(servo->closed_form.servo) : std::nullopt;
 }
 
@@ -31,9 +31,9 @@ Side side_of_dissipation(const std::optional<NormalizedServo>& servo) {
 }
 
 std::vector<MapCurve> dissipative_boundary(const Grid& grid, Progress& progress) {
-  const GridPoints points(grid);
+  const Family family(grid);
   const auto side = [&](const MapPoint& place) {
-    return side_of_dissipation(servo_at(points, place));
+    return side_of_dissipation(servo_at(family, place));
   };
   std::vector<Side> corners;
   corners.reserve(grid.size());
@@ -45,11 +45,11 @@ std::vector<MapCurve> dissipative_boundary(const Grid& grid, Progress& progress)
 
 std::vector<MapCurve> hunting_boundary(const Grid& grid, std::span<const double> growth_at_rest,
                                        Progress& progress) {
-  const GridPoints points(grid);
+  const Family family(grid);
   std::vector<Side> corners;
   corners.reserve(growth_at_rest.size());
   for (const double growth : growth_at_rest) corners.push_back(side_of(growth));
-  const auto side = [&](const MapPoint& place) { return side_of_hunting(servo_at(points, place)); };
+  const auto side = [&](const MapPoint& place) { return side_of_hunting(servo_at(family, place)); };
   return boundary_of_region(grid.axes[1], grid.axes[0], corners, side, {}, progress);
 }
 

@@ -5,14 +5,14 @@
 #include <span>
 #include <vector>
 
-#include "question/map/grid_points.hpp"
+#include "question/family/family.hpp"
 #include "question/map/region_boundary.hpp"
 
 namespace gearlash {
 
 /// The servo at a place of a map whose axes are y and x, in this order; empty for an invalid drive
 /// or one that must be searched.
-std::optional<NormalizedServo> servo_at(const GridPoints& points, const MapPoint& place);
+std::optional<NormalizedServo> servo_at(const Family& family, const MapPoint& place);
 
 /// Inside where small motion grows (growth at rest > 1), outside where it decays; unknown where
 /// there is no such servo, or it bounces too often to follow.

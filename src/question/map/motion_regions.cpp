@@ -40,10 +40,10 @@ class Kinds {
   }
 
   /// Locates the changes by searches.
-  void locate(const GridPoints& points, Progress& progress) {
+  void locate(const Family& family, Progress& progress) {
     SharedProgress shared(progress, std::max<std::size_t>(1, edges_.size()));
     on_threads(0, edges_.size(), [&](std::size_t i) {
-      edges_[i].change = change_on(edges_[i], points, shared);
+      edges_[i].change = change_on(edges_[i], family, shared);
       shared.finish(1);
     });
   }
@@ -95,7 +95,7 @@ class Kinds {
     return position < edges_[known->second].change ? first : corners_[end_of(edge)];
   }
 
-  double change_on(const Edge& edge, const GridPoints& points, SharedProgress& progress) const {
+  double change_on(const Edge& edge, const Family& family, SharedProgress& progress) const {
     constexpr double near = 1.0 / 400.0;
     const Axis& axis = edge.is_along_x ? x_ : y_;
     const std::size_t first = edge.is_along_x ? edge.column : edge.row;
@@ -107,7 +107,7 @@ class Kinds {
       const double value = value_at(axis, middle);
       const std::array place = {edge.is_along_x ? y_.values[edge.row] : value,
                                 edge.is_along_x ? value : x_.values[edge.column]};
-      const Verdict there = answer_at(points, place, Quantity::verdict, progress).verdict;
+      const Verdict there = answer_at(family, place, Quantity::verdict, progress).verdict;
       (kind_of(there) == kind ? low : high) = middle;
     }
     return 0.5 * (low + high);
@@ -175,7 +175,7 @@ std::string_view name_of(MotionKind kind) {
 
 std::vector<MotionRegion> motion_regions(const Grid& grid, const Table& table, Progress& progress) {
   Kinds map(grid, table);
-  map.locate(GridPoints(grid), progress);
+  map.locate(Family(grid), progress);
   const Axis x = widened(grid.axes[1]);
   const Axis y = widened(grid.axes[0]);
   std::vector<MotionRegion> regions;

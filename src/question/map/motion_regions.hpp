@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "question/map/grid_evaluation.hpp"
+#include "question/family/evaluation.hpp"
 #include "question/map/region_boundary.hpp"
 
 namespace gearlash {

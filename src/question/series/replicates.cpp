@@ -121,18 +121,4 @@ SortedReplicates sorted(std::span<double> column, std::size_t replicates, std::s
   return all;
 }
 
-bool in_blocks(std::size_t samples, std::size_t at_a_time, const Workers& workers,
-               Progress& progress,
-               const std::function<void(std::size_t, std::size_t, Progress&)>& work) {
-  SharedProgress shared(progress, samples);
-  on_threads(workers.threads, (samples + at_a_time - 1) / at_a_time, [&](std::size_t block) {
-    if (shared.is_stopped()) return;
-    const std::size_t first = block * at_a_time;
-    const std::size_t count = std::min(at_a_time, samples - first);
-    work(first, count, shared);
-    if (!shared.is_stopped()) shared.finish(count);  // else it may have been broken off
-  });
-  return shared.done() == samples;
-}
-
 }  // namespace gearlash::detail

@@ -2,13 +2,11 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "gearlash/tolerance.hpp"
-#include "question/map/grid_evaluation.hpp"
 
 namespace gearlash::detail {
 
@@ -39,12 +37,5 @@ struct SortedReplicates {
 
 /// Sorts the numbers of each replicate, which follow one another in `column`.
 SortedReplicates sorted(std::span<double> column, std::size_t replicates, std::size_t threads);
-
-/// Calls work(first, count, progress) for all of `samples`, `at_a_time` at a time, on all cores;
-/// false if progress stopped it. The division does not depend on the number of threads. The work
-/// may ask its progress whether to go on.
-bool in_blocks(std::size_t samples, std::size_t at_a_time, const Workers& workers,
-               Progress& progress,
-               const std::function<void(std::size_t, std::size_t, Progress&)>& work);
 
 }  // namespace gearlash::detail

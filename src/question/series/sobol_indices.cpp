@@ -3,10 +3,9 @@
 
 #include "base/progress_part.hpp"
 #include "base/range_check.hpp"
-#include "question/series/drawn_results.hpp"
-#include "question/series/drawn_values.hpp"
 #include "question/series/replicates.hpp"
 #include "question/series/sample_plan.hpp"
+#include "question/series/samples.hpp"
 #include "question/series/tolerance_study.hpp"
 
 namespace gearlash {
@@ -53,13 +52,13 @@ struct Sums {
   double total_variance(std::size_t number) const { return total[number] / (2.0 * points); }
 };
 
-struct BlockSums {
+struct ReplicateSums {
   Sums amplitude;
   Sums hunting;
   std::size_t left_out = 0;
   std::size_t refused = 0;
 
-  void add(const BlockSums& others) {
+  void add(const ReplicateSums& others) {
     amplitude.add(others.amplitude);
     hunting.add(others.hunting);
     left_out += others.left_out;
@@ -85,10 +84,10 @@ std::vector<double> mixed_values(const std::vector<double>& both_sets, std::size
 }
 
 /// The sums of the drives of mixed_values(); `usual_amplitude` is subtracted from amplitudes.
-BlockSums sums_of(const detail::DrawnResults& results, std::size_t numbers,
-                  double usual_amplitude) {
-  BlockSums sums{Sums(numbers), Sums(numbers)};
-  for (const detail::DrawnResult& result : results) sums.refused += result.refused ? 1 : 0;
+ReplicateSums sums_of(const detail::SampleResults& results, std::size_t numbers,
+                      double usual_amplitude) {
+  ReplicateSums sums{Sums(numbers), Sums(numbers)};
+  for (const detail::SampleResult& result : results) sums.refused += result.refused ? 1 : 0;
   for (std::size_t point = 0; point < results.size(); point += numbers + 2) {
     const auto size = [&](std::size_t of) {
       return results[point + of].amplitude - usual_amplitude;
@@ -111,10 +110,10 @@ BlockSums sums_of(const detail::DrawnResults& results, std::size_t numbers,
 }
 
 /// A constant near the mean amplitude; subtracting it avoids cancellation in a small variance.
-double amplitude_of_mean_drive(const TolerancedDrive& drive, const detail::DrawnAnswers& answers,
+double amplitude_of_mean_drive(const TolerancedDrive& drive, const detail::SampleAnswers& answers,
                                Progress& progress) {
   ProgressPart at_start(progress, 0.0, 0.0);
-  const double size = answers.of(1, means_of(drive), at_start)[0].amplitude;
+  const double size = answers.of(means_of(drive), at_start)[0].amplitude;
   return std::isfinite(size) ? size : 0.0;
 }
 
@@ -156,17 +155,13 @@ class Indices {
 };
 
 SensitivityStudy study_of(const TolerancedDrive& drive, const SamplePlan& sampling,
-                          const std::vector<BlockSums>& blocks, double usual_amplitude) {
+                          const std::vector<ReplicateSums>& replicates, double usual_amplitude) {
   const std::size_t numbers = drive.varied.size();
-  std::vector<BlockSums> replicates(sampling.replicates, {Sums(numbers), Sums(numbers)});
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    replicates[i / (blocks.size() / sampling.replicates)].add(blocks[i]);
-  }
   SensitivityStudy study;
   study.sampling = sampling;
   std::vector<const Sums*> sizes;
   std::vector<const Sums*> hunting;
-  for (const BlockSums& replicate : replicates) {
+  for (const ReplicateSums& replicate : replicates) {
     sizes.push_back(&replicate.amplitude);
     hunting.push_back(&replicate.hunting);
     study.left_out += replicate.left_out;
@@ -196,25 +191,26 @@ SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const SampleP
     nothing.sampling = sampling;
     return nothing;
   }
-  const detail::DrawnValues values(drive, sampling, 2);
+  const detail::SampleValues values(drive, sampling, 2);
   const Target no_target;
-  const detail::DrawnAnswers answers(drive, no_target, questions.amplitude, workers.unit);
-  // A quarter of the usual number, because each point needs numbers + 2 drives and each block a set
-  // of sums.
-  const std::size_t at_a_time = std::max<std::size_t>(answers.at_a_time() / 4, 1);
+  const detail::SampleAnswers answers(drive, no_target, questions.amplitude, workers);
   const double usual_amplitude = amplitude_of_mean_drive(drive, answers, progress);
-  const std::size_t of_replicate = (sampling.points + at_a_time - 1) / at_a_time;
-  std::vector<BlockSums> blocks(of_replicate * sampling.replicates, {Sums(numbers), Sums(numbers)});
-  const auto work = [&](std::size_t block, std::size_t /*one*/, Progress& of_block) {
-    const std::size_t point = block % of_replicate * at_a_time;
-    const std::size_t count = std::min(at_a_time, sampling.points - point);
-    const std::size_t first = block / of_replicate * sampling.points + point;
-    const std::vector<double> mixed = mixed_values(values.of(first, count), numbers);
-    const detail::DrawnResults results = answers.of(count * (numbers + 2), mixed, of_block);
-    blocks[block] = sums_of(results, numbers, usual_amplitude);
-  };
-  const bool all_done = detail::in_blocks(blocks.size(), 1, workers, progress, work);
-  SensitivityStudy study = study_of(drive, sampling, blocks, usual_amplitude);
+  constexpr std::size_t points_at_a_time = 4096;  // for memory
+  const auto samples = static_cast<double>(sampling.samples());
+  std::vector<ReplicateSums> replicates(sampling.replicates, {Sums(numbers), Sums(numbers)});
+  bool all_done = true;
+  for (std::size_t first = 0; first < sampling.samples() && all_done;) {
+    const std::size_t replicate = first / sampling.points;
+    const std::size_t end = std::min(first + points_at_a_time, (replicate + 1) * sampling.points);
+    ProgressPart part(progress, static_cast<double>(first) / samples,
+                      static_cast<double>(end) / samples);
+    const std::vector<double> mixed = mixed_values(values.of(first, end - first), numbers);
+    detail::SampleResults results((end - first) * (numbers + 2));
+    all_done = answers.fill(rows_of(mixed, numbers), results, part);
+    replicates[replicate].add(sums_of(results, numbers, usual_amplitude));
+    first = end;
+  }
+  SensitivityStudy study = study_of(drive, sampling, replicates, usual_amplitude);
   study.stopped = !all_done;
   return study;
 }

@@ -6,18 +6,17 @@
 
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
-#include "question/series/drawn_values.hpp"
 #include "question/series/replicates.hpp"
 #include "question/series/sample_plan.hpp"
 
 namespace gearlash {
 namespace {
 
-using detail::DrawnResult;
-using detail::DrawnResults;
+using detail::SampleResult;
+using detail::SampleResults;
 using detail::SortedReplicates;
 
-static_assert(sizeof(DrawnResult) == 32);  // SamplePlan::most_samples says what they take
+static_assert(sizeof(SampleResult) == 32);  // SamplePlan::most_samples says what they take
 
 constexpr double above_zero = std::numeric_limits<double>::denorm_min();
 
@@ -60,7 +59,7 @@ AmplitudeHistogram histogram_of(const SortedReplicates& sizes, std::size_t bins)
 }
 
 /// The part of a study that needs only the counts.
-ToleranceStudy counted(const SamplePlan& sampling, std::span<const DrawnResult> results) {
+ToleranceStudy counted(const SamplePlan& sampling, std::span<const SampleResult> results) {
   const std::vector<double> points(sampling.replicates, static_cast<double>(sampling.points));
   std::vector<double> hunting(sampling.replicates);
   std::vector<double> meeting(sampling.replicates);
@@ -70,7 +69,7 @@ ToleranceStudy counted(const SamplePlan& sampling, std::span<const DrawnResult> 
   study.sampling = sampling;
   for (std::size_t i = 0; i < results.size(); ++i) {
     const std::size_t replicate = i / sampling.points;
-    const DrawnResult& result = results[i];
+    const SampleResult& result = results[i];
     if (result.hunts()) hunting[replicate] += 1.0;
     if (result.meets) meeting[replicate] += 1.0;
     if (result.refused) ++study.refused;
@@ -90,11 +89,11 @@ ToleranceStudy counted(const SamplePlan& sampling, std::span<const DrawnResult> 
 
 /// Of the samples that were answered before the work was stopped. One that was broken off is
 /// undecided.
-ToleranceStudy stopped_study(const SamplePlan& sampling, std::span<const DrawnResult> results) {
+ToleranceStudy stopped_study(const SamplePlan& sampling, std::span<const SampleResult> results) {
   ToleranceStudy study{.sampling = sampling, .stopped = true};
   double hunting = 0.0;
   double meeting = 0.0;
-  for (const DrawnResult& result : results) {
+  for (const SampleResult& result : results) {
     if (result.verdict == Verdict::undecided) continue;
     ++study.answered;
     if (result.hunts()) hunting += 1.0;
@@ -112,14 +111,13 @@ ToleranceStudy stopped_study(const SamplePlan& sampling, std::span<const DrawnRe
 /// False if the work was stopped; samples without an answer are then undecided.
 bool answer_all(const TolerancedDrive& drive, const SamplePlan& sampling,
                 const StudyQuestions& questions, std::size_t first, const Workers& workers,
-                Progress& progress, DrawnResults& all) {
-  const detail::DrawnValues values(drive, sampling, 1);
-  const detail::DrawnAnswers answers(drive, questions.target, questions.amplitude, workers.unit);
-  const auto work = [&](std::size_t begin, std::size_t rows, Progress& of_block) {
-    const DrawnResults results = answers.of(rows, values.of(first + begin, rows), of_block);
-    std::copy(results.begin(), results.end(), all.begin() + static_cast<std::ptrdiff_t>(begin));
-  };
-  return detail::in_blocks(all.size(), answers.at_a_time(), workers, progress, work);
+                Progress& progress, SampleResults& all) {
+  const detail::SampleValues values(drive, sampling, 1);
+  const detail::SampleAnswers answers(drive, questions.target, questions.amplitude, workers);
+  return answers.fill(
+      {.count = all.size(),
+       .fill = [&](std::size_t row, std::span<double> part) { values.fill(first + row, part); }},
+      all, progress);
 }
 
 void require_sound(const TolerancedDrive& drive, const SamplePlan& sampling,
@@ -149,28 +147,28 @@ std::vector<Fault> faults(const StudyQuestions& questions) {
 
 SamplePlan usual_sampling(const TolerancedDrive& drive, const StudyQuestions& questions) {
   if (is_searched(drive)) return sampling_of(64);
-  const detail::DrawnAnswers answers(drive, questions.target, questions.amplitude,
-                                     widest_vector_unit());
+  const detail::SampleAnswers answers(drive, questions.target, questions.amplitude, {});
   return sampling_of(answers.are_one_by_one() || may_bounce(drive) ? 512 : 65536);
 }
 
-std::optional<DrawnResults> answer_samples(const TolerancedDrive& drive, const SamplePlan& sampling,
-                                           const StudyQuestions& questions, std::size_t first,
-                                           std::size_t count, const Workers& workers,
-                                           Progress& progress) {
+std::optional<SampleResults> answer_samples(const TolerancedDrive& drive,
+                                            const SamplePlan& sampling,
+                                            const StudyQuestions& questions, std::size_t first,
+                                            std::size_t count, const Workers& workers,
+                                            Progress& progress) {
   require_sound(drive, sampling, questions);
   const std::size_t samples = sampling.samples();
   if (first >= samples || count == 0 || count > samples - first) {
     require_none({{"samples", std::to_string(first) + " and " + std::to_string(count) + " more",
                    "must be among the " + std::to_string(samples) + " of the plan", ""}});
   }
-  DrawnResults all(count);
+  SampleResults all(count);
   if (!answer_all(drive, sampling, questions, first, workers, progress, all)) return std::nullopt;
   return all;
 }
 
 ToleranceStudy study_of(const SamplePlan& sampling, const StudyQuestions& questions,
-                        std::span<const DrawnResult> results, std::size_t threads) {
+                        std::span<const SampleResult> results, std::size_t threads) {
   RangeCheck check;
   check.include(faults(sampling)).include(faults(questions));
   require_none(check.faults());
@@ -184,14 +182,14 @@ ToleranceStudy study_of(const SamplePlan& sampling, const StudyQuestions& questi
     std::transform(results.begin(), results.end(), column.begin(), number);
     return detail::sorted(column, sampling.replicates, threads);
   };
-  const SortedReplicates sizes = sorted_by([](const DrawnResult& result) {
+  const SortedReplicates sizes = sorted_by([](const SampleResult& result) {
     return std::isnan(result.amplitude) ? infinity : result.amplitude;
   });
   study.amplitude = quantiles_of(sizes, questions.shares);
   study.amplitude_of_hunting = quantiles_of(sizes.from(above_zero), questions.shares);
   study.histogram = histogram_of(sizes, questions.bins);
   constexpr double no_cycle = -1.0;  // NaN has no place in an order
-  const SortedReplicates frequencies = sorted_by([](const DrawnResult& result) {
+  const SortedReplicates frequencies = sorted_by([](const SampleResult& result) {
     return std::isnan(result.frequency) ? no_cycle : result.frequency;
   });
   study.frequency = quantiles_of(frequencies.from(0.0), questions.shares);
@@ -202,7 +200,7 @@ ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& 
                                 const StudyQuestions& questions, const Workers& workers,
                                 Progress& progress) {
   require_sound(drive, sampling, questions);
-  DrawnResults results(sampling.samples());
+  SampleResults results(sampling.samples());
   return answer_all(drive, sampling, questions, 0, workers, progress, results)
              ? study_of(sampling, questions, results, workers.threads)
              : stopped_study(sampling, results);

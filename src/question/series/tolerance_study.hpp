@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "gearlash/tolerance.hpp"
-#include "question/map/grid_evaluation.hpp"
-#include "question/series/drawn_results.hpp"
+#include "question/family/evaluation.hpp"
+#include "question/series/samples.hpp"
 
 namespace gearlash {
 
@@ -22,16 +22,16 @@ ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& 
 /// What samples do, from number `first` on, numbered replicate by replicate: of a whole study, or
 /// of a part that is dealt out to one of several machines. Empty if progress stopped it. Throws
 /// InvalidInput as study_tolerances(), and for samples that the plan does not have.
-std::optional<detail::DrawnResults> answer_samples(const TolerancedDrive& drive,
-                                                   const SamplePlan& sampling,
-                                                   const StudyQuestions& questions,
-                                                   std::size_t first, std::size_t count,
-                                                   const Workers& workers, Progress& progress);
+std::optional<detail::SampleResults> answer_samples(const TolerancedDrive& drive,
+                                                    const SamplePlan& sampling,
+                                                    const StudyQuestions& questions,
+                                                    std::size_t first, std::size_t count,
+                                                    const Workers& workers, Progress& progress);
 
 /// The study of what all samples do, in their order. Throws InvalidInput with the faults of the
 /// sampling and the questions, and for another number of results.
 ToleranceStudy study_of(const SamplePlan& sampling, const StudyQuestions& questions,
-                        std::span<const detail::DrawnResult> results, std::size_t threads = 0);
+                        std::span<const detail::SampleResult> results, std::size_t threads = 0);
 
 /// Solves varied.size() + 2 drives for each point: A and B, the two halves of Sobol points with
 /// twice as many coordinates as varied parameters, and AB_i, which is A with column i of B. With m

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
 #include "gearlash/parameter.hpp"
 #include "question/change/target.hpp"
-#include "question/series/drawn_cycles.hpp"
-#include "question/series/drawn_values.hpp"
 #include "question/series/replicates.hpp"
 #include "question/series/sample_plan.hpp"
+#include "question/series/samples.hpp"
 
 namespace gearlash {
 namespace {
@@ -38,20 +36,28 @@ TolerancedDrive with_unit_backlash(TolerancedDrive drive) {
 }
 
 /// The largest max for which a sample meets the target; `never` where it misses it even with
-/// max = min. `answer`: one that is reused.
-double largest_max(const Target& target, detail::DrawnCycle cycle, double min, Answer& answer) {
-  const double backlash = std::exchange(cycle.backlash, min);
-  cycle.fill(answer);
-  const bool meets = is_met(target, answer);
-  if (cycle.verdict == Verdict::cannot_hunt) return meets ? infinity : never;
-  const double size = cycle.amplitude_per_backlash;
-  if (meets && !std::isnan(min * size)) {
-    return min + std::max(0.0, target.permitted(Quantity::amplitude).high / size - min) / backlash;
+/// max = min. Amplitudes are proportional to backlash, and nothing else depends on it.
+double largest_max(const Target& target, Answer answer, double backlash, double min) {
+  double amplitude_per_backlash = not_a_number;
+  for (Cycle& cycle : answer.cycles) {
+    amplitude_per_backlash = cycle.amplitude / backlash;
+    cycle.amplitude = min * amplitude_per_backlash;
   }
-  if (min > 0.0 || cycle.verdict == Verdict::undamped) return never;
+  for (IrregularMotion& motion : answer.irregular) {
+    amplitude_per_backlash = motion.amplitude / backlash;
+    motion.amplitude = min * amplitude_per_backlash;
+  }
+  const bool meets = is_met(target, answer);
+  if (answer.verdict == Verdict::cannot_hunt) return meets ? infinity : never;
+  if (meets && !std::isnan(amplitude_per_backlash)) {
+    const double most = target.permitted(Quantity::amplitude).high / amplitude_per_backlash;
+    return min + std::max(0.0, most - min) / backlash;
+  }
+  if (min > 0.0 || answer.verdict == Verdict::undamped) return never;
   // A sample without backlash does not hunt.
-  cycle.verdict = Verdict::cannot_hunt;
-  cycle.fill(answer);
+  answer.verdict = Verdict::cannot_hunt;
+  answer.cycles.clear();
+  answer.irregular.clear();
   return is_met(target, answer) ? 0.0 : never;
 }
 
@@ -100,24 +106,33 @@ std::optional<WidestBacklash> widest_backlash(const TolerancedDrive& drive,
                                               const SamplePlan& sampling, const Workers& workers,
                                               Progress& progress) {
   RangeCheck check;
-  check.include(faults_of_toleranced_servo(drive));
+  check.include(faults(drive));
+  if (check.faults().empty() && is_searched(drive)) {
+    check.refuse("drive", "without a closed form", permitted_with_closed_form);
+  }
   check.include(faults(sampling)).include(faults(demand));
   require_none(check.faults());
   const double min = lowest_backlash(drive, demand);
   const TolerancedDrive unit_drive = with_unit_backlash(drive);
-  const detail::DrawnValues values(unit_drive, sampling, 1);
+  const detail::SampleValues values(unit_drive, sampling, 1);
+  const std::size_t width = unit_drive.varied.size();
+  const std::size_t place = *place_of_backlash(unit_drive);
   std::vector<double> column(sampling.samples());
-  const auto work = [&](std::size_t first, std::size_t count, Progress&) {
-    const auto cycles = detail::solve(unit_drive, count, values.of(first, count), workers.unit);
-    Answer answer;
-    for (std::size_t row = 0; row < count; ++row) {
-      column[first + row] = largest_max(demand.target, cycles[row], min, answer);
-    }
+  std::vector<double> backlash(column.size());
+  const FamilyRows rows{.count = column.size(),
+                        .fill = [&](std::size_t first, std::span<double> part) {
+                          values.fill(first, part);
+                          for (std::size_t i = place; i < part.size(); i += width) {
+                            backlash[first + i / width] = part[i];
+                          }
+                        }};
+  const auto take = [&](std::size_t row, const Answer* answer) {
+    column[row] =
+        answer == nullptr ? never : largest_max(demand.target, *answer, backlash[row], min);
   };
   WidestBacklash widest;
   widest.min = min;
-  widest.stopped = !detail::in_blocks(sampling.samples(), detail::drives_at_a_time(drive), workers,
-                                      progress, work);
+  widest.stopped = evaluate(family_of(unit_drive), rows, {.take = take}, progress, workers).stopped;
   if (widest.stopped) return widest;
   const detail::SortedReplicates maxima =
       detail::sorted(column, sampling.replicates, workers.threads);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "gearlash/tolerance.hpp"
-#include "question/map/grid_evaluation.hpp"
+#include "question/family/evaluation.hpp"
 
 namespace gearlash {
 

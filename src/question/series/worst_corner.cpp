@@ -33,7 +33,7 @@ bool is_notably_worse(const Badness& a, const Badness& b) {
   return a.amplitude == b.amplitude && a.amplitude <= 0.0 && a.growth > b.growth * (1.0 + notable);
 }
 
-Badness badness_of(const detail::DrawnResult& result) {
+Badness badness_of(const detail::SampleResult& result) {
   if (result.verdict != Verdict::undecided && !result.hunts()) {
     return {-1.0, std::isnan(result.growth_at_rest) ? -1.0 : result.growth_at_rest};
   }
@@ -68,7 +68,7 @@ struct Candidate {
 /// The share of a searched drive's work is that of its searches; in closed form that of the climbs.
 class ClimbProgress : public Progress {
  public:
-  ClimbProgress(Progress& whole, const detail::DrawnAnswers& answers)
+  ClimbProgress(Progress& whole, const detail::SampleAnswers& answers)
       : whole_(whole), is_by_climbs_(!answers.are_one_by_one()) {}
 
   bool go_on(double share, std::size_t bytes = 0) override {
@@ -87,8 +87,7 @@ class Climb {
   Climb(const TolerancedDrive& drive, const WorstSearch& search, const Workers& workers,
         Progress& progress)
       : search_(search),
-        workers_(workers),
-        answers_(drive, no_target_, search.amplitude, workers.unit),
+        answers_(drive, no_target_, search.amplitude, workers),
         progress_(progress, answers_),
         shared_(progress_, search.samples + most_corners) {
     for (const ParameterTolerance& varied : drive.varied) {
@@ -110,9 +109,7 @@ class Climb {
 
   const std::vector<Coordinate>& coordinates() const { return coordinates_; }
   bool is_stopped() const { return shared_.is_stopped(); }
-  detail::DrawnResult result(const Values& values) {
-    return answers_.of(1, values, shared_).front();
-  }
+  detail::SampleResult result(const Values& values) { return answers_.of(values, shared_).front(); }
 
  private:
   static constexpr std::size_t most_corners = 64;  ///< of a searched drive
@@ -155,26 +152,14 @@ class Climb {
   }
 
   std::vector<Badness> evaluate(const std::vector<Values>& all) {
-    const std::size_t at_a_time = answers_.at_a_time();
-    std::vector<Badness> badness(all.size());
-    const auto work = [&](std::size_t block) {
-      if (is_stopped()) return;
-      const std::size_t first = block * at_a_time;
-      const std::size_t count = std::min(at_a_time, all.size() - first);
-      Values values;
-      for (std::size_t i = first; i < first + count; ++i) {
-        values.insert(values.end(), all[i].begin(), all[i].end());
-      }
-      const detail::DrawnResults results = answers_.of(count, values, shared_);
-      shared_.finish(answers_.are_one_by_one() ? count : 0);
-      for (std::size_t row = 0; row < count; ++row) badness[first + row] = badness_of(results[row]);
-    };
-    const std::size_t blocks = (all.size() + at_a_time - 1) / at_a_time;
-    if (blocks == 1) {
-      work(0);
-    } else {
-      on_threads(workers_.threads, blocks, work);
-    }
+    Values values;
+    for (const Values& one : all) values.insert(values.end(), one.begin(), one.end());
+    detail::SampleResults results(all.size());
+    answers_.fill({.count = all.size(), .fill = rows_of(values, coordinates_.size()).fill}, results,
+                  shared_);
+    shared_.finish(answers_.are_one_by_one() ? all.size() : 0);
+    std::vector<Badness> badness;
+    for (const detail::SampleResult& result : results) badness.push_back(badness_of(result));
     return badness;
   }
 
@@ -322,8 +307,7 @@ class Climb {
 
   const Target no_target_{};
   const WorstSearch& search_;
-  const Workers& workers_;
-  detail::DrawnAnswers answers_;
+  detail::SampleAnswers answers_;
   ClimbProgress progress_;
   SharedProgress shared_;
   std::vector<Coordinate> coordinates_;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "question/map/grid_evaluation.hpp"
-#include "question/series/drawn_results.hpp"
+#include "question/family/evaluation.hpp"
+#include "question/series/samples.hpp"
 #include "question/series/toleranced_drive.hpp"
 
 namespace gearlash {
@@ -36,7 +36,7 @@ struct WorstNumber {
 
 struct WorstCorner {
   std::vector<WorstNumber> numbers;  ///< in the order of drive.varied
-  detail::DrawnResult result;
+  detail::SampleResult result;
   bool stopped = false;  ///< by Progress: then nothing holds
 };
 

@@ -1,5 +1,5 @@
 // Drives beside each other on a grid, followed from neighbour to neighbour.
-#include "question/map/followed_drives.hpp"
+#include "question/family/followed_drives.hpp"
 
 #include <gtest/gtest.h>
 

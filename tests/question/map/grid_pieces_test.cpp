@@ -30,9 +30,9 @@ class GridInPieces : public testing::TestWithParam<std::size_t> {};
 TEST_P(GridInPieces, IsTheGridAtOnce) {
   for (const Grid& grid : {grid_of_servos(), grid_of_bouncing_servos()}) {
     Table whole = table_of(grid.size());
-    const GridCount at_once = work_out(grid, 0, whole);
+    const RowCount at_once = work_out(grid, 0, whole);
     std::size_t next = 0;
-    const GridCount count = evaluate_in_pieces(
+    const RowCount count = evaluate_in_pieces(
         grid, closed_form_quantities, 0, GetParam(), [&](const GridPiece& piece) {
           ASSERT_EQ(piece.first, next);
           ASSERT_LE(piece.table.rows(), GetParam());
@@ -58,8 +58,8 @@ TEST(EdgeGridInPieces, GoesOnFromWhereAPieceEnded) {
     first += piece.table.rows();
   });
   EXPECT_EQ(first, grid.size());
-  const GridCount nothing = evaluate_in_pieces(grid, closed_form_quantities, grid.size(), 62,
-                                               [](const GridPiece&) { FAIL(); });
+  const RowCount nothing = evaluate_in_pieces(grid, closed_form_quantities, grid.size(), 62,
+                                              [](const GridPiece&) { FAIL(); });
   EXPECT_FALSE(nothing.stopped);
 }
 
@@ -69,7 +69,7 @@ TEST(EdgeGridInPieces, StopsWhenAsked) {
     std::size_t taken = 0;
     auto progress =
         test::Stopping::at(static_cast<double>(most) / static_cast<double>(grid.size()));
-    const GridCount count = evaluate_in_pieces(
+    const RowCount count = evaluate_in_pieces(
         grid, closed_form_quantities, 0, 31,
         [&](const GridPiece& piece) { taken += piece.table.rows(); }, progress);
     EXPECT_TRUE(count.stopped) << most;

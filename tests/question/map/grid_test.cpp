@@ -10,7 +10,7 @@
 #include "base/stopping.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
-#include "question/map/grid_evaluation.hpp"
+#include "question/family/evaluation.hpp"
 #include "question/map/servo_grids.hpp"
 
 namespace gearlash::grid_test {
@@ -61,7 +61,7 @@ TEST(EdgeGrid, AMasslessSideMayStandBesideAnyAxis) {
                     .axes = {damping}};
     EXPECT_TRUE(faults(grid, {"--x"}).empty());
     Table table = table_of(grid.size());
-    const GridCount count = work_out(grid, 0, table);
+    const RowCount count = work_out(grid, 0, table);
     EXPECT_EQ(count.refused, 1U);  // no damping: no friction
   }
   const Grid none{.drive = drive_of({.inertia_ratio = 0.0, .backlash = 1.0}),
@@ -162,7 +162,7 @@ TEST(EdgeGrid, CombinationsThatAreNoServoAreKnownOfNothing) {
                            {"servo.friction_ratio", {0.0, 0.5, 1.0}}}};
   ASSERT_TRUE(faults(grid, {"x", "y"}).empty());
   Table table = table_of(grid.size());
-  const GridCount count = work_out(grid, 0, table);
+  const RowCount count = work_out(grid, 0, table);
   EXPECT_EQ(count.refused, 2U);
   EXPECT_EQ(count.solved.side_by_side + count.solved.one_by_one, 7U);
   for (const std::size_t row : {0U, 8U}) {  // no friction on the side without inertia
@@ -176,7 +176,7 @@ TEST(EdgeGrid, StopsWhenAsked) {
   const Grid grid = grid_of_three();
   Table table = table_of(grid.size());
   test::Stopping progress;
-  const GridCount count = work_out(grid, 0, table, {.threads = 2}, progress);
+  const RowCount count = work_out(grid, 0, table, {.threads = 2}, progress);
   EXPECT_TRUE(count.stopped);
   EXPECT_GT(progress.heard, 0.0);
   EXPECT_LT(count.points(), grid.size());
@@ -249,7 +249,7 @@ TEST(Grid, WordsStandOnAxesAndSearchedDrivesBesideServos) {
   const Grid grid{.drive = drive, .axes = {{"sensor.position", {0.0, 1.0}}}};
   ASSERT_TRUE(faults(grid).empty());
   Table table(2, std::vector{Quantity::amplitude});
-  const GridCount count = work_out(grid, 0, table);
+  const RowCount count = work_out(grid, 0, table);
   EXPECT_EQ(count.searched, 1U);
   EXPECT_EQ(count.points(), 2U);
   for (const std::size_t row : {0U, 1U}) expect_answer(table, row, analyse(grid.at(row)));

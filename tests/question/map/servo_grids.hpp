@@ -2,7 +2,7 @@
 #pragma once
 
 #include "question/change/drives.hpp"
-#include "question/map/grid_evaluation.hpp"
+#include "question/family/evaluation.hpp"
 #include "question/map/hunting_boundary.hpp"
 
 namespace gearlash {
@@ -16,17 +16,16 @@ inline NormalizedServo servo_of(const Drive& drive) {
 }
 
 inline NormalizedServo servo_at(const Grid& grid, const MapPoint& place) {
-  return servo_at(GridPoints(grid), place).value();
+  return servo_at(Family(grid), place).value();
 }
 
 /// With a column for all that the closed form knows.
 inline Table table_of(std::size_t rows) { return Table(rows, closed_form_quantities); }
 
 /// Some points; see evaluate() in grid_evaluation.hpp.
-inline GridCount work_out(const Grid& grid, std::size_t first, Table& table,
-                          const Workers& workers = {}, Progress& progress = no_progress()) {
-  return evaluate(grid, GridPoints(grid), first, table.rows(), columns_of(table), progress,
-                  workers);
+inline RowCount work_out(const Grid& grid, std::size_t first, Table& table,
+                         const Workers& workers = {}, Progress& progress = no_progress()) {
+  return evaluate(Family(grid), grid, first, table, progress, workers);
 }
 
 inline Table worked_out(const Grid& grid, const Workers& workers = {}) {

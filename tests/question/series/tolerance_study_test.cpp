@@ -343,7 +343,7 @@ TEST(OracleToleranceStudy, QuantilesAndStepsAreThoseOfAllSamplesSorted) {
     const auto results =
         answer_samples(drive, sampling, questions, first, part, {}, no_progress()).value();
     for (std::size_t i = 0; i < part; ++i) {
-      const detail::DrawnResult& one = results[i];
+      const detail::SampleResult& one = results[i];
       const std::size_t replicate = (first + i) / sampling.points;
       amplitude[replicate].push_back(one.amplitude);
       if (one.amplitude > 0.0) of_hunting[replicate].push_back(one.amplitude);
@@ -491,7 +491,7 @@ TEST(EdgeToleranceStudy, EveryFaultIsNamed) {
               }),
               ElementsAre("samples = 5 and 4 more: must be among the 8 of the plan"));
   EXPECT_THAT(faults_of([&] {
-                (void)study_of({.points = 4, .replicates = 2}, {}, detail::DrawnResults(7));
+                (void)study_of({.points = 4, .replicates = 2}, {}, detail::SampleResults(7));
               }),
               ElementsAre("results = 7: must be as many as samples: 8"));
 }

@@ -79,7 +79,7 @@ TEST(EdgeTolerance, BadInputIsAFault) {
   EXPECT_THAT(faults_with("load.colour", within_share(0.2, 0.1)),
               Contains(HasSubstr("must be a number of this drive")));
   EXPECT_THAT(faults_with("motor.coulomb", UniformBetween{-1.0, 1.0}),
-              Contains(HasSubstr("the tolerances permit it where motor.coulomb = -0.99")));
+              Contains("motor.coulomb = uniform from -1 to 1: must not fall below zero"));
 }
 
 }  // namespace

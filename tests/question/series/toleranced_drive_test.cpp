@@ -64,24 +64,21 @@ std::size_t count_varied(const Drive& nominal) {
     if (!exists(parameter, nominal)) continue;
     const TolerancedDrive drive{nominal,
                                 {{std::string(parameter.path), UniformBetween{0.01, 0.02}}}};
-    if (!faults_of_toleranced_servo(drive).empty()) continue;
-    EXPECT_FALSE(is_searched(drive)) << parameter.path;
-    ++numbers;
+    if (!faults_of(drive).empty() || is_searched(drive)) continue;
     const ClosedFormServo low = drive_with(drive, std::vector{0.01});
     const ClosedFormServo high = drive_with(drive, std::vector{0.02});
-    EXPECT_TRUE(low.servo != high.servo || low.natural_frequency != high.natural_frequency)
-        << parameter.path;
+    if (low.servo != high.servo || low.natural_frequency != high.natural_frequency) ++numbers;
   }
   return numbers;
 }
 
 TEST(TolerancedDrive, EveryNumberOfADataSheetCanBeVaried) {
-  EXPECT_EQ(count_varied(sound_drive()), 12U);
-  EXPECT_EQ(count_varied(drive_of(FieldControl{0.2, 282.0}, sheet)), 11U);
-  EXPECT_EQ(count_varied(drive_of(TwoPhase{0.2, 1e-5}, sheet)), 11U);
-  EXPECT_EQ(count_varied(drive_of(TorqueControl{}, sheet)), 9U);
+  EXPECT_EQ(count_varied(sound_drive()), 13U);
+  EXPECT_EQ(count_varied(drive_of(FieldControl{0.2, 282.0}, sheet)), 12U);
+  EXPECT_EQ(count_varied(drive_of(TwoPhase{0.2, 1e-5}, sheet)), 12U);
+  EXPECT_EQ(count_varied(drive_of(TorqueControl{}, sheet)), 10U);
   Drive with_frequency = normal_form(0.19, 2.0, 0.1, 0.3);
-  EXPECT_EQ(count_varied(with_frequency), 5U);
+  EXPECT_EQ(count_varied(with_frequency), 6U);  // one of them gives it a natural frequency
   with_frequency.servo->natural_frequency = 3.0;
   EXPECT_EQ(count_varied(with_frequency), 6U);
 }
@@ -106,10 +103,10 @@ TEST(TolerancedDrive, ABreakawayTorqueKeepsItsRatioToCoulombFriction) {
   drive.nominal.motor.friction.coulomb = 0.1;
   drive.nominal.motor.friction.breakaway = 0.12;
   EXPECT_THAT(faults_of(drive), IsEmpty());
-  EXPECT_NEAR(searched_drive_with(drive, std::vector{0.15}).motor.friction.breakaway.value(), 0.18,
+  EXPECT_NEAR(family_of(drive).drive_at(std::vector{0.15}).motor.friction.breakaway.value(), 0.18,
               1e-15);
   drive.varied.push_back({"motor.breakaway", within_share(0.12, 0.1)});
-  EXPECT_EQ(searched_drive_with(drive, std::vector{0.05, 0.12}).motor.friction.breakaway, 0.12);
+  EXPECT_EQ(family_of(drive).drive_at(std::vector{0.05, 0.12}).motor.friction.breakaway, 0.12);
   EXPECT_THAT(faults_of(drive), ElementsAre(HasSubstr("motor.breakaway")));
 }
 
@@ -132,13 +129,12 @@ TEST(EdgeTolerancedDrive, OfOneNumberEveryFaultIsNamed) {
               ElementsAre(HasSubstr("must stay within 0 to 1: give it a min and a max")));
   EXPECT_THAT(faults_of(with("contact.restitution", Normal{0.5, 0.1, 0.1, {}})),
               ElementsAre(HasSubstr("must stay within 0 to 1: give it a max")));
-  EXPECT_THAT(
-      faults_of(with("motor.torque_per_volt", ExactValue{1.0})),
-      ElementsAre(HasSubstr("must be a number of this drive: motor.inertia, motor.friction, "
+  EXPECT_THAT(faults_of(with("motor.torque_per_volt", ExactValue{1.0})),
+              ElementsAre(AllOf(
+                  HasSubstr("must be a number of this drive: motor.inertia, motor.friction, "
                             "motor.torque_constant, motor.back_emf_constant, "
-                            "motor.resistance, gearbox.ratio, gearbox.backlash, "
-                            "load.inertia, load.friction, contact.restitution, "
-                            "controller.proportional")));
+                            "motor.resistance, "),
+                  HasSubstr(", gearbox.backlash, "), HasSubstr(", controller.proportional"))));
   EXPECT_THAT(faults_of(normalised_with("load.inertia", ExactValue{1.0})),
               ElementsAre(HasSubstr("must be a number of this drive: servo.damping, ")));
 }
@@ -157,9 +153,11 @@ TEST(EdgeTolerancedDrive, AllFaultsAreListedAtOnce) {
 
 TEST(EdgeTolerancedDrive, ACornerThatIsNoDriveIsRefused) {
   EXPECT_THAT(
-      faults_of(normalised_with("servo.inertia_ratio", UniformBetween{0.0, 1.0})),
+      faults_of(normalised_with("servo.inertia_ratio", UniformBetween{1e-16, 1.0})),
       ElementsAre(AllOf(HasSubstr("servo.inertia_ratio = "),
                         HasSubstr("; the tolerances permit it where servo.inertia_ratio = "))));
+  EXPECT_THAT(faults_of(normalised_with("servo.inertia_ratio", UniformBetween{0.0, 1.0})),
+              IsEmpty());  // a load without inertia
   EXPECT_THAT(faults_of(normalised_with("servo.damping", UniformBetween{1.0, 2000.0})),
               ElementsAre(HasSubstr("servo.damping = ")));
   EXPECT_THAT(faults_of(normalised_with("servo.backlash", UniformBetween{0.0, 1.0})), IsEmpty());
@@ -178,8 +176,6 @@ TEST(EdgeTolerancedDrive, WithoutAClosedFormItIsSearched) {
   drive.nominal.motor.friction.coulomb = 1e-4;
   EXPECT_TRUE(is_searched(drive));
   EXPECT_THAT(faults_of(drive), IsEmpty());
-  EXPECT_THAT(to_string(faults_of_toleranced_servo(drive).at(0)),
-              HasSubstr("must have a closed-form answer"));
   EXPECT_TRUE(is_searched(with("motor.coulomb", UniformBetween{0.0, 1e-4})));
   EXPECT_THAT(faults_of(with("motor.coulomb", UniformBetween{0.0, 1e-4})), IsEmpty());
 }

@@ -30,7 +30,7 @@ inline TolerancedDrive normalised_toleranced(std::vector<ParameterTolerance> var
 
 /// The servo of the drive with these values of its varied parameters.
 inline ClosedFormServo drive_with(const TolerancedDrive& drive, const std::vector<double>& values) {
-  return closed_form_servo(detail::DrawnDrive(drive).with(values)).value();
+  return closed_form_servo(family_of(drive).drive_at(values)).value();
 }
 
 /// All numbers of the sample but restitution and ratio, some uniform, some normal, one in lots.

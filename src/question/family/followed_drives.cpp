@@ -1,4 +1,4 @@
-#include "question/map/followed_drives.hpp"
+#include "question/family/followed_drives.hpp"
 
 #include <algorithm>
 

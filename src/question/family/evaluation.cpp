@@ -1,0 +1,462 @@
+#include "question/family/evaluation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <mutex>
+
+#include "base/on_threads.hpp"
+#include "base/shared_progress.hpp"
+#include "base/special_numbers.hpp"
+#include "model/reduced_drive.hpp"
+#include "question/family/followed_drives.hpp"
+#include "question/final_servo.hpp"
+
+namespace gearlash {
+namespace {
+
+/// The columns of what is computed without the motions that a drive ends in.
+class FigureColumns {
+ public:
+  /// `base`: see ask_for().
+  FigureColumns(const CycleColumns& columns, const Drive& base) : columns_(columns) {
+    for (const QuantityInfo& info : quantities()) {
+      if (!is_figure(info.quantity) || columns[info.quantity].empty()) continue;
+      ask_for(info.quantity, base, wanted_);
+      quantities_.push_back(info.quantity);
+    }
+  }
+
+  bool are_none() const { return quantities_.empty(); }
+
+  void write(std::size_t row, const Drive& drive, Progress& progress) const {
+    Answer answer;
+    if (faults(drive).empty()) add_figures(drive, wanted_, answer, progress);
+    for (const Quantity quantity : quantities_) {
+      columns_[quantity][row] = answer.value(quantity).value_or(not_a_number);
+    }
+  }
+
+ private:
+  const CycleColumns& columns_;
+  Wanted wanted_;
+  std::vector<Quantity> quantities_;
+};
+
+/// The number of points in closed form that a thread solves at a time: some tenths of a millisecond
+/// without bounces, some tens of milliseconds with them or with figures.
+std::size_t points_at_a_time(const EnginesNeeded& engines, const FigureColumns& figures) {
+  if (!figures.are_none()) return 16;
+  return engines.bounces ? 8 : 4096;
+}
+
+CycleColumns rows_of(const CycleColumns& columns, std::size_t first, std::size_t count) {
+  CycleColumns rows;
+  rows.verdict = columns.verdict.subspan(first, count);
+  for (std::size_t i = 0; i < quantity_count; ++i) {
+    if (!columns.numbers[i].empty()) rows.numbers[i] = columns.numbers[i].subspan(first, count);
+  }
+  return rows;
+}
+
+void write(const CycleColumns& columns, std::size_t row, const Answer& answer) {
+  columns.verdict[row] = answer.verdict;
+  for (std::size_t i = 0; i < quantity_count; ++i) {
+    if (columns.numbers[i].empty()) continue;
+    columns.numbers[i][row] = answer.value(static_cast<Quantity>(i)).value_or(not_a_number);
+  }
+}
+
+/// Scales a row from the normal form to SI.
+void scale(const CycleColumns& columns, std::size_t row, double natural_frequency,
+           double stiffness) {
+  const auto by = [&](Quantity quantity, double factor) {
+    if (!columns[quantity].empty()) columns[quantity][row] *= factor;
+  };
+  for (const Quantity time : {Quantity::period, Quantity::engaged_time, Quantity::separated_time}) {
+    by(time, 1.0 / natural_frequency);
+  }
+  for (const Quantity rate : {Quantity::frequency, Quantity::impact_speed}) {
+    by(rate, natural_frequency);
+  }
+  for (const Quantity loss :
+       {Quantity::motor_friction_loss, Quantity::load_friction_loss, Quantity::impact_loss}) {
+    by(loss, stiffness);
+  }
+}
+
+void scale(const CycleColumns& columns, std::size_t row, const FinalServo& servo) {
+  scale(columns, row, servo.closed_form.natural_frequency, servo.stiffness.value_or(not_a_number));
+}
+
+/// Fills in what Answer::value() gives for drives that come to rest, and for the verdict.
+void complete(const CycleColumns& columns, std::size_t row) {
+  const Verdict verdict = columns.verdict[row];
+  const std::span<double> words = columns[Quantity::verdict];
+  if (!words.empty()) words[row] = static_cast<double>(verdict);
+  if (!is_at_rest(verdict)) return;
+  for (const Quantity quantity : {Quantity::amplitude, Quantity::motor_amplitude}) {
+    if (!columns[quantity].empty()) columns[quantity][row] = 0.0;
+  }
+}
+
+/// What the columns say of one drive's motion. `answer`: one that is reused.
+void read_back(const CycleColumns& columns, std::size_t row, Answer& answer) {
+  answer.verdict = columns.verdict[row];
+  answer.growth_at_rest = known(columns[Quantity::growth_at_rest][row]);
+  answer.cycles.clear();
+  answer.irregular.clear();
+  const double amplitude = columns[Quantity::amplitude][row];
+  const double period = columns[Quantity::period][row];
+  if (!std::isfinite(amplitude) || answer.verdict == Verdict::cannot_hunt) return;
+  if (std::isnan(period)) {
+    answer.irregular.push_back({.amplitude = amplitude});
+  } else {
+    answer.cycles.push_back({.amplitude = amplitude, .period = period});
+  }
+}
+
+/// Columns of a part's own, of what read_back() needs, where none are asked for.
+struct OwnColumns {
+  explicit OwnColumns(std::size_t rows)
+      : verdict(rows), growth_at_rest(rows), amplitude(rows), period(rows) {}
+
+  CycleColumns columns() {
+    CycleColumns all{.verdict = verdict};
+    all[Quantity::growth_at_rest] = growth_at_rest;
+    all[Quantity::amplitude] = amplitude;
+    all[Quantity::period] = period;
+    return all;
+  }
+
+  std::vector<Verdict> verdict;
+  std::vector<double> growth_at_rest;
+  std::vector<double> amplitude;
+  std::vector<double> period;
+};
+
+/// Consecutive rows: those in closed form are solved as a batch, the others searched.
+class FamilyPart {
+ public:
+  FamilyPart(const Family& family, const AskedOfRows& asked, std::size_t first, std::size_t count,
+       std::size_t longest_run)
+      : family_(family),
+        asked_(asked),
+        first_(first),
+        own_(asked.columns.verdict.empty() ? count : 0),
+        columns_(asked.columns.verdict.empty() ? own_.columns()
+                                               : rows_of(asked.columns, first, count)),
+        member_(family),
+        servos_(count),
+        values_(count * family.width()),
+        longest_run_(longest_run) {}
+
+  RowCount work_out(const FamilyRows& rows, VectorUnit unit, SharedProgress& progress) {
+    rows.fill(first_, values_);
+    for (std::size_t row = 0; row < servos_.size(); ++row) place(row);
+    RowCount count;
+    count.solved = find_limit_cycles(servos_, columns_, unit);
+    count.solved.one_by_one -= refused_.size() + searched_.size();  // less the stand-ins
+    if (asked_.proved) {
+      count.unproved = keep_proved(servos_, columns_, [&](std::size_t row) { return box(row); });
+    }
+    bring_to_si();
+    for (const std::size_t row : refused_) write(columns_, row, Answer{});
+    // What is not reached is unknown.
+    for (const std::size_t row : searched_rows_) write(columns_, row, Answer{});
+    for (std::size_t row = 0; row < servos_.size(); ++row) complete(columns_, row);
+    if (asked_.take) give_closed();
+    search(progress);
+    count.stopped = !add_figures_to_columns(progress);
+    count.searched = found_;
+    count.refused = refused_.size();
+    return count;
+  }
+
+  std::size_t to_search() const { return searched_.size(); }
+
+ private:
+  struct Scale {
+    std::size_t row;
+    double natural_frequency;
+    double stiffness;  ///< NaN where unknown
+  };
+
+  static NormalizedServo stand_in() { return {.damping = 1.0}; }
+
+  std::span<const double> values(std::size_t row) const {
+    return std::span<const double>(values_).subspan(row * family_.width(), family_.width());
+  }
+
+  void place(std::size_t row) {
+    if (asked_.one_by_one) {
+      place(row, family_.drive_at(values(row)));
+    } else if (family_.normal_form()) {
+      place(row, family_.normal_form_at(values(row)));
+    } else if (member_.exists()) {
+      const std::optional<FinalServo> servo = member_.servo(values(row));
+      servo ? place(row, *servo, member_.drive()) : refuse(row);
+    } else {
+      place(row, family_.drive_at(values(row)));
+    }
+  }
+
+  void place(std::size_t row, const NormalizedServo& servo) {
+    servos_[row] = servo;
+    const bool two_masses = servo.inertia_ratio > 0.0 && std::isfinite(servo.inertia_ratio);
+    if (two_masses || faults(servo).empty()) return;  // the axes were checked for the rest
+    refuse(row);
+  }
+
+  void refuse(std::size_t row) {
+    servos_[row] = stand_in();
+    refused_.push_back(row);
+  }
+
+  void place(std::size_t row, Drive drive) {
+    if (!faults(drive).empty()) return refuse(row);
+    if (!asked_.one_by_one) {
+      if (const std::optional<FinalServo> servo = final_servo(drive)) {
+        return place(row, *servo, drive);
+      }
+    }
+    servos_[row] = stand_in();
+    searched_rows_.push_back(row);
+    searched_.push_back(std::move(drive));
+  }
+
+  void place(std::size_t row, const FinalServo& servo, const Drive& drive) {
+    servos_[row] = servo.closed_form.servo;
+    scales_.push_back(
+        {row, servo.closed_form.natural_frequency, servo.stiffness.value_or(not_a_number)});
+    if (asked_.proved && !drive.servo) boxes_.emplace(row, box_of(drive, servo).servo);
+  }
+
+  /// All servos that a row stands for.
+  ServoBox box(std::size_t row) const {
+    const auto computed = boxes_.find(row);
+    return computed != boxes_.end() ? computed->second
+                                    : box_of(servos_[row], reading_of(family_.base()));
+  }
+
+  void search(SharedProgress& progress) {
+    for (std::size_t first = 0; first < searched_.size(); first += longest_run_) {
+      const auto take = [&](std::size_t index, const Answer& answer) {
+        const std::size_t row = searched_rows_[first + index];
+        write(columns_, row, answer);
+        complete(columns_, row);
+        if (!answer.search || answer.search->is_complete) ++found_;
+        if (asked_.take) asked_.take(first_ + row, &answer);
+        return progress.finish(1);
+      };
+      const std::size_t count = std::min(longest_run_, searched_.size() - first);
+      search_run(std::span<const Drive>(searched_).subspan(first, count), asked_.wanted, take,
+                 progress);
+      if (progress.is_stopped()) return;
+    }
+  }
+
+  /// Gives the answers that need no search.
+  void give_closed() {
+    Answer answer;
+    std::size_t next_searched = 0;
+    std::size_t next_refused = 0;
+    for (std::size_t row = 0; row < servos_.size(); ++row) {
+      if (next_searched < searched_rows_.size() && searched_rows_[next_searched] == row) {
+        ++next_searched;
+        continue;
+      }
+      const bool is_refused = next_refused < refused_.size() && refused_[next_refused] == row;
+      if (is_refused) ++next_refused;
+      read_back(columns_, row, answer);
+      asked_.take(first_ + row, is_refused ? nullptr : &answer);
+    }
+  }
+
+  /// False if it was stopped.
+  bool add_figures_to_columns(SharedProgress& progress) {
+    const FigureColumns figures(columns_, family_.base());
+    for (std::size_t row = 0; !figures.are_none() && row < servos_.size(); ++row) {
+      if (!progress.go_on(0.0)) return false;
+      figures.write(row, family_.drive_at(values(row)), progress);
+    }
+    return true;
+  }
+
+  /// Scales all rows from the normal form to SI.
+  void bring_to_si() {
+    for (const Scale& one : scales_) {
+      scale(columns_, one.row, one.natural_frequency, one.stiffness);
+    }
+    if (!family_.normal_form()) return;
+    const FinalServo& shared = *family_.normal_form();
+    if (shared.closed_form.natural_frequency == 1.0 && shared.stiffness == 1.0) return;
+    for (std::size_t row = 0; row < servos_.size(); ++row) {
+      scale(columns_, row, shared);
+    }
+  }
+
+  const Family& family_;
+  const AskedOfRows& asked_;
+  std::size_t first_;
+  OwnColumns own_;
+  CycleColumns columns_;
+  FamilyMember member_;
+  std::vector<NormalizedServo> servos_;
+  std::vector<double> values_;
+  std::size_t longest_run_;
+  std::vector<Scale> scales_;
+  std::map<std::size_t, ServoBox> boxes_;  ///< of servos computed from data with units
+  std::vector<std::size_t> searched_rows_;
+  std::vector<Drive> searched_;
+  std::vector<std::size_t> refused_;
+  std::size_t found_ = 0;  ///< answers of searched drives
+};
+
+/// Where the parts of the rows begin, and the last one's end. Searches that are followed lie on one
+/// line each.
+std::vector<std::size_t> parts_of(const FamilyRows& rows, bool searches, std::size_t at_a_time) {
+  std::vector<std::size_t> begins;
+  for (std::size_t begin = 0; begin < rows.count;) {
+    begins.push_back(begin);
+    const std::size_t place = (rows.into_line + begin) % rows.line;
+    begin += searches ? std::min(longest_run, rows.line - place) : at_a_time;
+  }
+  begins.push_back(rows.count);
+  return begins;
+}
+
+/// The points of a grid in order. Stepping avoids the division per axis and point of at(), which is
+/// noticeable next to the kernel.
+void fill_points(const Grid& grid, std::size_t first, std::span<double> values) {
+  const std::size_t width = grid.axes.size();
+  if (width == 0) return;
+  std::vector<double> point = values_at(grid, first);
+  std::vector<std::size_t> places(width);
+  for (std::size_t i = width; i-- > 0;) {
+    places[i] = first % grid.axes[i].values.size();
+    first /= grid.axes[i].values.size();
+  }
+  for (std::size_t begin = 0; begin < values.size(); begin += width) {
+    std::copy(point.begin(), point.end(), values.begin() + static_cast<std::ptrdiff_t>(begin));
+    for (std::size_t i = width; i-- > 0;) {
+      const std::vector<double>& of_axis = grid.axes[i].values;
+      const bool carries = ++places[i] == of_axis.size();
+      if (carries) places[i] = 0;
+      point[i] = of_axis[places[i]];
+      if (!carries) break;
+    }
+  }
+}
+
+}  // namespace
+
+void RowCount::add(const RowCount& others) {
+  solved.side_by_side += others.solved.side_by_side;
+  solved.one_by_one += others.solved.one_by_one;
+  searched += others.searched;
+  refused += others.refused;
+  unproved += others.unproved;
+  stopped = stopped || others.stopped;
+}
+
+FamilyRows rows_of(const Grid& grid, std::size_t first, std::size_t count) {
+  FamilyRows rows{.count = count,
+                  .fill = [&grid, first](std::size_t row, std::span<double> values) {
+                    fill_points(grid, first + row, values);
+                  }};
+  if (grid.axes.empty()) return rows;
+  const Axis& last = grid.axes.back();
+  const bool is_word = !parameter_of(last, grid.drive)->choices.empty();
+  if (is_word) return rows;
+  rows.line = last.values.size();
+  rows.into_line = first % rows.line;
+  return rows;
+}
+
+FamilyRows rows_of(std::span<const double> table, std::size_t width) {
+  return {.count = width == 0 ? 1 : table.size() / width,
+          .fill = [table, width](std::size_t first, std::span<double> values) {
+            const std::span<const double> part = table.subspan(first * width, values.size());
+            std::copy(part.begin(), part.end(), values.begin());
+          }};
+}
+
+RowCount evaluate(const Family& family, const FamilyRows& rows, const AskedOfRows& asked,
+                  Progress& progress, const Workers& workers) {
+  const bool searches = asked.one_by_one || family.engines().search;
+  const FigureColumns figures(asked.columns, family.base());
+  const std::vector<std::size_t> begins =
+      parts_of(rows, searches, points_at_a_time(family.engines(), figures));
+  RowCount total;
+  std::mutex adding;
+  SharedProgress shared(progress, rows.count);
+  const auto work = [&](std::size_t index) {
+    if (shared.is_stopped()) return;
+    const std::size_t count = begins[index + 1] - begins[index];
+    FamilyPart part(family, asked, begins[index], count, asked.one_by_one ? 1 : longest_run);
+    const RowCount of_part = part.work_out(rows, workers.unit, shared);
+    {
+      const std::scoped_lock lock(adding);
+      total.add(of_part);
+    }
+    shared.finish(count - part.to_search());
+  };
+  if (begins.size() == 2) {
+    work(0);
+  } else {
+    on_threads(workers.threads, begins.size() - 1, work);
+  }
+  total.stopped = total.stopped || (shared.is_stopped() && shared.done() < rows.count);
+  return total;
+}
+
+RowCount evaluate(const Family& family, const Grid& grid, std::size_t first, Table& table,
+                  Progress& progress, const Workers& workers) {
+  return evaluate(family, rows_of(grid, first, table.rows()),
+                  {.columns = columns_of(table), .proved = grid.proved}, progress, workers);
+}
+
+CycleColumns columns_of(Table& table) {
+  CycleColumns columns{.verdict = table.column_of_verdicts()};
+  for (std::size_t i = 0; i < quantity_count; ++i) {
+    columns.numbers[i] = table.column(static_cast<Quantity>(i));
+  }
+  return columns;
+}
+
+std::span<const Quantity> quantities_known(const EnginesNeeded& engines) {
+  static const std::vector<Quantity> all = [] {
+    std::vector<Quantity> list;
+    for (const QuantityInfo& info : quantities()) {
+      const bool is_slow = info.scope == QuantityScope::step;
+      if (info.kind == QuantityKind::number && !is_slow) list.push_back(info.quantity);
+    }
+    return list;
+  }();
+  return engines.search ? std::span<const Quantity>(all) : closed_form_quantities;
+}
+
+PointAnswer answer_at(const Family& family, std::span<const double> place, Quantity quantity,
+                      Progress& progress) {
+  PointAnswer answer;
+  AskedOfRows asked{.columns = {.verdict = {&answer.verdict, 1}}};
+  asked.columns[quantity] = {&answer.value, 1};
+  const FamilyRows row{.count = 1, .fill = [&](std::size_t /*first*/, std::span<double> values) {
+                         std::copy(place.begin(), place.end(), values.begin());
+                       }};
+  evaluate(family, row, asked, progress);
+  return answer;
+}
+
+double of_motion(Quantity quantity, Verdict verdict, double value) {
+  const bool is_absent = is_at_rest(verdict) && info_of(quantity).scope == QuantityScope::motion;
+  return is_absent ? not_a_number : value;
+}
+
+double of_motion(const Table& table, Quantity quantity, std::size_t row) {
+  return of_motion(quantity, table.verdict(row), table[quantity][row]);
+}
+
+}  // namespace gearlash
