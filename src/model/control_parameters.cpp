@@ -143,7 +143,7 @@ constexpr Place in_integral = only_if<has_terms<PIDTerms::PI>, in_law<member>>;
 template <auto member>
 constexpr Place in_derivative = only_if<has_terms<PIDTerms::PD>, in_law<member>>;
 
-std::vector<Parameter> pid_parameters() {
+std::vector<Parameter> law_parameters() {
   return {
       entry("controller.proportional", in_law<&PID::proportional>,
             "proportional gain, output per error", gain, required, OtherForm{"loop.error_gain"},
@@ -163,11 +163,8 @@ std::vector<Parameter> pid_parameters() {
             "speed; 0: none",
             unit<time>, not_negative, UsualRange{1e-4, 0.1}),
       entry("controller.derivative_of", in_derivative<&PID::derivative_of_speed>,
-            "input of the derivative: the error, or the measured speed", Words{"error", "speed"})};
-}
+            "input of the derivative: the error, or the measured speed", Words{"error", "speed"}),
 
-std::vector<Parameter> other_laws() {
-  return {
       entry("controller.position", in_law<&CascadeController::position>,
             "commanded speed per position error", unit<rate>, required, UsualRange{0.1, 1000.0}),
       entry("controller.speed", in_law<&CascadeController::speed>, "output per speed error",
@@ -207,14 +204,7 @@ std::vector<Parameter> matrix_parameters() {
                 Wanted{"a list of 1 or 3 numbers"})};
 }
 
-std::vector<Parameter> motor_speed_feedback() {
-  return {entry("controller.motor_speed_feedback",
-                in_controller_if<is_plant, &Controller::motor_speed_feedback>,
-                "feedback of the motor's speed by a tachometer, beside the law", speed_gain,
-                not_negative, OtherForm{"loop.motor_speed_feedback"}, UsualRange{1e-4, 10.0})};
-}
-
-// ---- sampling -----------------------------------------------------------------------------------
+// ---- tachometer, sampling -----------------------------------------------------------------------
 
 template <auto member>
 constexpr Place in_sampling = at<&Drive::sampling, member>;
@@ -228,9 +218,13 @@ void choose_speed_source(Drive& drive, std::size_t choice) {
   drive.sampling->speed_by_differences = choice == 0;
 }
 
-std::vector<Parameter> sampling_parameters() {
+std::vector<Parameter> feedback_and_sampling() {
   constexpr double turn = 2.0 * std::numbers::pi;
   return {
+      entry("controller.motor_speed_feedback",
+            in_controller_if<is_plant, &Controller::motor_speed_feedback>,
+            "feedback of the motor's speed by a tachometer, beside the law", speed_gain,
+            not_negative, OtherForm{"loop.motor_speed_feedback"}, UsualRange{1e-4, 10.0}),
       entry("sampling.period", in_sampling<&Sampling::period>, "time between two samples",
             unit<time>, positive, required,
             OtherForm{"sampling.frequency", &angular_frequency, turn},
@@ -248,9 +242,8 @@ std::vector<Parameter> sampling_parameters() {
 }  // namespace
 
 std::vector<Parameter> control_parameters() {
-  return joined({&sensor_parameters, &kind_parameters, &pid_parameters, &other_laws,
-                 &matrix_parameters, &nonlinear_parameters, &firmware_parameters,
-                 &motor_speed_feedback, &sampling_parameters});
+  return joined({&sensor_parameters, &kind_parameters, &law_parameters, &matrix_parameters,
+                 &nonlinear_parameters, &firmware_parameters, &feedback_and_sampling});
 }
 
 }  // namespace gearlash::parameter_rows

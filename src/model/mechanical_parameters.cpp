@@ -72,7 +72,8 @@ bool may_have_current_limit(const Drive& drive) {
   return is_plant(drive) && is_free && takes_current_limit(drive.motor);
 }
 
-std::vector<Parameter> rotor_parameters() {
+/// Each kind of motor has constants of its own.
+std::vector<Parameter> motor_parameters() {
   return {entry("motor.kind", motor_kind,
                 "kind of motor: the controller outputs volts to a winding, or torque",
                 Words{"armature-controlled", "field-controlled", "two-phase", "torque-controlled"},
@@ -82,12 +83,8 @@ std::vector<Parameter> rotor_parameters() {
                 required, OtherForm{"joint.armature"}, UsualRange{1e-8, 1e-1}),
           entry("motor.friction", in_motor_friction<&Friction::viscous>,
                 "viscous friction of the motor, without its back-EMF", unit<torque_per_speed>,
-                not_negative, required, OtherForm{"joint.damping"}, UsualRange{1e-8, 1e-1})};
-}
-
-/// Each kind of motor has constants of its own.
-std::vector<Parameter> motor_constants() {
-  return {entry("motor.torque_constant",
+                not_negative, required, OtherForm{"joint.damping"}, UsualRange{1e-8, 1e-1}),
+          entry("motor.torque_constant",
                 first_of<in_motor_kind<&ArmatureControl::torque_constant>,
                          in_motor_kind<&FieldControl::torque_constant>>,
                 "torque per current, of the armature or of the field", unit<torque_per_current>,
@@ -152,22 +149,20 @@ constexpr Place in_load_friction = in_load<&Load::friction, member>;
 template <auto member>
 constexpr Place in_contact = at<&Drive::contact, member>;
 
-std::vector<Parameter> gearbox_parameters() {
-  return {entry("gearbox.ratio", in_gearbox<&Gearbox::ratio>, "motor turns per load turn", positive,
-                required, Wanted{"positive, motor turns per load turn"}, UsualRange{1.0, 1000.0}),
-          entry("gearbox.backlash", in_gearbox<&Gearbox::backlash>,
-                "backlash at the load's shaft, from face to face", unit<angle>, not_negative,
-                required, OtherForm{"joint.backlash"}, UsualRange{1e-5, 0.1}),
-          entry("gearbox.inertia", in_gearbox<&Gearbox::inertia>,
-                "moment of inertia of the gears, at the motor's shaft", unit<inertia>, not_negative,
-                UsualRange{1e-9, 1e-2}),
-          entry("gearbox.efficiency", in_gearbox<&Gearbox::efficiency>,
-                "efficiency as printed; not modelled, which every answer notes", share,
-                Wanted{"a number from 0 to 1, or in percent"}, UsualRange{0.3, 1.0, false})};
-}
-
-std::vector<Parameter> load_parameters() {
+std::vector<Parameter> gearbox_and_load() {
   return {
+      entry("gearbox.ratio", in_gearbox<&Gearbox::ratio>, "motor turns per load turn", positive,
+            required, Wanted{"positive, motor turns per load turn"}, UsualRange{1.0, 1000.0}),
+      entry("gearbox.backlash", in_gearbox<&Gearbox::backlash>,
+            "backlash at the load's shaft, from face to face", unit<angle>, not_negative, required,
+            OtherForm{"joint.backlash"}, UsualRange{1e-5, 0.1}),
+      entry("gearbox.inertia", in_gearbox<&Gearbox::inertia>,
+            "moment of inertia of the gears, at the motor's shaft", unit<inertia>, not_negative,
+            UsualRange{1e-9, 1e-2}),
+      entry("gearbox.efficiency", in_gearbox<&Gearbox::efficiency>,
+            "efficiency as printed; not modelled, which every answer notes", share,
+            Wanted{"a number from 0 to 1, or in percent"}, UsualRange{0.3, 1.0, false}),
+
       entry("load.inertia", in_load<&Load::inertia>, "moment of inertia of the load", unit<inertia>,
             not_negative, required, UsualRange{1e-6, 1e4}),
       entry("load.friction", in_load_friction<&Friction::viscous>, "viscous friction of the load",
@@ -209,9 +204,8 @@ std::vector<Parameter> contact_parameters() {
 }  // namespace
 
 std::vector<Parameter> mechanical_parameters() {
-  return joined({&servo_parameters, &rotor_parameters, &motor_constants,
-                 &motor_frictions_and_limits, &gearbox_parameters, &load_parameters,
-                 &contact_parameters});
+  return joined({&servo_parameters, &motor_parameters, &motor_frictions_and_limits,
+                 &gearbox_and_load, &contact_parameters});
 }
 
 }  // namespace gearlash::parameter_rows

@@ -56,8 +56,7 @@ std::vector<Parameter> nonlinear_parameters() {
             "half of the band about 0 in which the error counts as 0", threshold, not_negative,
             UsualRange{1e-5, 0.1}),
       entry("controller.dead_band_form", in_dead_band<has_dead_band, &DeadBand::form>,
-            "what the controller receives beyond the dead band: the excess, or the whole "
-            "error",
+            "what the controller receives beyond the dead band: the excess, or the whole error",
             Words{"excess", "whole"}),
       entry("controller.hysteresis", in_dead_band<has_hysteresis, &DeadBand::hysteresis>,
             "distance from dead_band to the thresholds where the output begins, outside, "
@@ -68,8 +67,7 @@ std::vector<Parameter> nonlinear_parameters() {
             UsualRange{1e-3, 100.0}),
       entry("controller.friction_speed",
             in_compensation<compensates_friction, &Compensation::friction_speed>,
-            "speed of the reference from which on all of it is added; below, in "
-            "proportion",
+            "speed of the reference from which on all of it is added; below, in proportion",
             unit<angular_speed>, not_negative, UsualRange{1e-4, 10.0}),
       entry("controller.backlash_compensation", in_compensation<has_law, &Compensation::backlash>,
             "backlash that the controller assumes, at the load's shaft: half of it is "
