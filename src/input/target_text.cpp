@@ -46,10 +46,6 @@ bool has_time(Quantity quantity) {
          dimension == &dimensions::angular_speed;
 }
 
-bool is_frequency(Quantity quantity) {
-  return quantity == Quantity::frequency || quantity == Quantity::bandwidth;
-}
-
 class TargetReader {
  public:
   TargetReader(std::string_view field, TimeScale time_scale)
@@ -109,7 +105,7 @@ class TargetReader {
 
   double read_limit(Quantity quantity, std::string_view text) const {
     const Dimension* dimension = entry_of(quantity).dimension;
-    if (is_frequency(quantity)) {  // "5 Hz" or "30 rad/s"
+    if (dimension == &dimensions::rate) {  // "5 Hz" or "30 rad/s"
       return to_si(field_, text, dimensions::angular_frequency) / (2.0 * std::numbers::pi);
     }
     if (dimension == nullptr) return read_share(field_, text);

@@ -1,111 +1,66 @@
+// Parameters of the sensors, the controller and its sampling.
 #include <numbers>
 
 #include "model/firmware.hpp"
 #include "model/parameter_list.hpp"
 
-namespace gearlash {
+namespace gearlash::parameter_rows {
 namespace {
 
-using namespace dimensions;
-
 // ---- sensors ------------------------------------------------------------------------------------
+
+std::size_t position_shaft(const Drive& drive) {
+  return static_cast<std::size_t>(drive.sensor.position);
+}
+void choose_position_shaft(Drive& drive, std::size_t choice) {
+  drive.sensor.position = static_cast<SensorPlace>(choice);
+  drive.sensor.is_assumed = false;
+}
 
 std::size_t speed_shaft(const Drive& drive) {
   if (drive.sensor.speed) return static_cast<std::size_t>(*drive.sensor.speed);
   return drive.sensor.position == SensorPlace::load ? 0 : 1;
 }
+void choose_speed_shaft(Drive& drive, std::size_t choice) {
+  drive.sensor.speed = static_cast<ShaftName>(choice);
+}
+
+/// Without the member `rival`, in whose place `member` stands.
+template <auto encoder, auto member, auto rival>
+Slot in_encoder(Drive& drive) {
+  return drive.sensor.*encoder.*rival ? Slot{} : at<&Drive::sensor, encoder, member>(drive);
+}
+
+template <auto encoder>
+constexpr Place encoder_counts =
+    in_encoder<encoder, &Encoder::counts_per_turn, &Encoder::resolution>;
+template <auto encoder>
+constexpr Place encoder_resolution =
+    in_encoder<encoder, &Encoder::resolution, &Encoder::counts_per_turn>;
 
 std::vector<Parameter> sensor_parameters() {
-  return {
-      {.path = "sensor.position",
-       .slot =
-           [](Drive&) {
-             return Slot{Choice{
-                 [](const Drive& drive) { return static_cast<std::size_t>(drive.sensor.position); },
-                 [](Drive& drive, std::size_t choice) {
-                   drive.sensor.position = static_cast<SensorPlace>(choice);
-                   drive.sensor.is_assumed = false;
-                 }}};
-           },
-       .meaning = "shaft with the position sensor; both: position of the load, speed of the motor",
-       .choices = {"load", "motor", "both"},
-       .other_forms = {{"loop.sensor"}}},
-      {.path = "sensor.speed",
-       .slot =
-           [](Drive&) {
-             return Slot{Choice{&speed_shaft, [](Drive& drive, std::size_t choice) {
-                                  drive.sensor.speed = static_cast<ShaftName>(choice);
-                                }}};
-           },
-       .meaning = "shaft of the speed feedback",
-       .choices = {"load", "motor"}}};
+  return {entry("sensor.position", choice_by<position_shaft, choose_position_shaft>,
+                "shaft with the position sensor; both: position of the load, speed of the motor",
+                Words{"load", "motor", "both"}, OtherForm{"loop.sensor"}),
+          entry("sensor.speed", choice_by<speed_shaft, choose_speed_shaft>,
+                "shaft of the speed feedback", Words{"load", "motor"}),
+          entry("sensor.counts_per_turn", encoder_counts<&Sensor::encoder>,
+                "counts of the encoder per turn of its own shaft; none: exact", positive,
+                UsualRange{100.0, 1e7}),
+          entry("sensor.resolution", encoder_resolution<&Sensor::encoder>,
+                "angle of one count of the encoder, at its own shaft; none: exact", unit<angle>,
+                not_negative, UsualRange{1e-7, 0.1}),
+          entry("sensor.speed_counts_per_turn", encoder_counts<&Sensor::speed_encoder>,
+                "counts per turn of the encoder that gives the speed by differences", positive,
+                UsualRange{100.0, 1e7}),
+          entry("sensor.speed_resolution", encoder_resolution<&Sensor::speed_encoder>,
+                "angle of one count of the encoder that gives the speed by differences",
+                unit<angle>, not_negative, UsualRange{1e-7, 0.1})};
 }
 
-std::vector<Parameter> encoder_parameters() {
-  return {
-      {.path = "sensor.counts_per_turn",
-       .slot =
-           [](Drive& d) {
-             return d.sensor.encoder.resolution ? Slot{} : Slot{&d.sensor.encoder.counts_per_turn};
-           },
-       .meaning = "counts of the encoder per turn of its own shaft; none: exact",
-       .permitted = Permitted::positive,
-       .usual = {100.0, 1e7}},
-      {.path = "sensor.resolution",
-       .slot =
-           [](Drive& d) {
-             return d.sensor.encoder.counts_per_turn ? Slot{} : Slot{&d.sensor.encoder.resolution};
-           },
-       .dimension = &always<angle>,
-       .meaning = "angle of one count of the encoder, at its own shaft; none: exact",
-       .permitted = Permitted::not_negative,
-       .usual = {1e-7, 0.1}},
-      {.path = "sensor.speed_counts_per_turn",
-       .slot =
-           [](Drive& d) {
-             return d.sensor.speed_encoder.resolution
-                        ? Slot{}
-                        : Slot{&d.sensor.speed_encoder.counts_per_turn};
-           },
-       .meaning = "counts per turn of the encoder that gives the speed by differences",
-       .permitted = Permitted::positive,
-       .usual = {100.0, 1e7}},
-      {.path = "sensor.speed_resolution",
-       .slot =
-           [](Drive& d) {
-             return d.sensor.speed_encoder.counts_per_turn
-                        ? Slot{}
-                        : Slot{&d.sensor.speed_encoder.resolution};
-           },
-       .dimension = &always<angle>,
-       .meaning = "angle of one count of the encoder that gives the speed by differences",
-       .permitted = Permitted::not_negative,
-       .usual = {1e-7, 0.1}}};
-}
-
-// ---- controllers --------------------------------------------------------------------------------
-
-bool is_torque(const Drive& drive) {
-  return std::holds_alternative<TorqueControl>(drive.motor.kind);
-}
-const Dimension* gain_dimension(const Drive& drive) {
-  return is_torque(drive) ? &torque_per_angle : &voltage_per_angle;
-}
-const Dimension* integral_dimension(const Drive& drive) {
-  return is_torque(drive) ? &torque_per_angle_and_time : &voltage_per_angle_and_time;
-}
-const Dimension* speed_gain_dimension(const Drive& drive) {
-  return is_torque(drive) ? &torque_per_speed : &voltage_per_speed;
-}
+// ---- kinds of controllers -----------------------------------------------------------------------
 
 constexpr std::size_t cascade = 4;  // in the list of kinds, after P, PD, PI, PID
-
-/// The alternative of that index, with its defaults.
-template <class... Laws>
-void become(std::variant<Laws...>& law, std::size_t which) {
-  const std::variant<Laws...> all[] = {Laws{}...};
-  law = all[which];
-}
 
 using Law = decltype(Controller::law);
 constexpr std::size_t firmwares = cascade + std::variant_size_v<Law> - 1;  // in the same list
@@ -149,15 +104,11 @@ void choose_kind(Drive& drive, std::size_t choice) {
 
 /// The laws after the PID ones are in the order of Controller::law, the firmwares after them.
 Parameter controller_kind() {
-  Parameter kind{.path = "controller.kind",
-                 .slot =
-                     [](Drive& d) {
-                       return d.servo ? Slot{} : Slot{Choice{&kind_of, &choose_kind}};
-                     },
-                 .meaning = "law that computes the output from the error, or a motor's firmware",
-                 .is_required = true,
-                 .choices = {"P", "PD", "PI", "PID", "cascade", "lead-lag", "transfer-function",
-                             "state-space", "relay"}};
+  Parameter kind =
+      entry("controller.kind", only_if<is_plant, choice_by<kind_of, choose_kind>>,
+            "law that computes the output from the error, or a motor's firmware", required,
+            Words{"P", "PD", "PI", "PID", "cascade", "lead-lag", "transfer-function", "state-space",
+                  "relay"});
   for (const FirmwareFacts& firmware : all_firmwares()) kind.choices.push_back(firmware.word);
   for (const RefusedFirmware& refused : refused_firmwares()) {
     kind.refused_words.push_back({refused.word, refused.reason});
@@ -165,281 +116,134 @@ Parameter controller_kind() {
   return kind;
 }
 
-Parameter controller_shaft() {
-  return {.path = "controller.shaft",
-          .slot =
-              [](Drive& d) {
-                if (!has_law(d)) return Slot{};
-                return Slot{Choice{[](const Drive& drive) {
-                                     return static_cast<std::size_t>(drive.controller.shaft);
-                                   },
-                                   [](Drive& drive, std::size_t choice) {
-                                     drive.controller.shaft = static_cast<GainShaft>(choice);
-                                   }}};
-              },
-          .meaning =
-              "shaft of the torques and angles in the gains; mixed: torque of the motor per "
-              "angle of the load",
-          .choices = {"load", "motor", "mixed"}};
+std::vector<Parameter> kind_parameters() {
+  return {controller_kind(),
+          entry("controller.shaft", in_controller_if<has_law, &Controller::shaft>,
+                "shaft of the torques and angles in the gains; mixed: torque of the motor per "
+                "angle of the load",
+                Words{"load", "motor", "mixed"})};
 }
 
-template <class Law, class Member>
-Slot of_law(Drive& drive, Member Law::*member) {
-  return has_law(drive) ? slot_of(drive.controller.law, member) : Slot{};
-}
+// ---- laws ---------------------------------------------------------------------------------------
 
-/// A member of a PID controller that has one of two sets of terms.
-template <class Member>
-Slot of_terms(Drive& drive, Member PID::*member, PIDTerms with) {
+constexpr DimensionRule gain = unit_by_motor<torque_per_angle, voltage_per_angle>;
+constexpr DimensionRule integral_gain =
+    unit_by_motor<torque_per_angle_and_time, voltage_per_angle_and_time>;
+constexpr DimensionRule speed_gain = unit_by_motor<torque_per_speed, voltage_per_speed>;
+
+/// Whether the law is a PID controller with these terms, or with all.
+template <PIDTerms terms>
+bool has_terms(const Drive& drive) {
   const auto* pid = std::get_if<PID>(&drive.controller.law);
-  const bool has_it = pid != nullptr && (pid->terms == with || pid->terms == PIDTerms::PID);
-  return has_it ? of_law(drive, member) : Slot{};
+  return has_law(drive) && pid != nullptr && (pid->terms == terms || pid->terms == PIDTerms::PID);
 }
 
-Slot input_of_derivative(Drive& d) {
-  const Slot filter = of_terms(d, &PID::filter, PIDTerms::PD);
-  if (std::holds_alternative<std::monostate>(filter)) return Slot{};
-  return Choice{[](const Drive& drive) {
-                  const PID& pid = std::get<PID>(drive.controller.law);
-                  return static_cast<std::size_t>(pid.derivative_of_speed);
-                },
-                [](Drive& drive, std::size_t choice) {
-                  std::get<PID>(drive.controller.law).derivative_of_speed = choice == 1;
-                }};
+template <auto member>
+constexpr Place in_integral = only_if<has_terms<PIDTerms::PI>, in_law<member>>;
+template <auto member>
+constexpr Place in_derivative = only_if<has_terms<PIDTerms::PD>, in_law<member>>;
+
+std::vector<Parameter> law_parameters() {
+  return {
+      entry("controller.proportional", in_law<&PID::proportional>,
+            "proportional gain, output per error", gain, required, OtherForm{"loop.error_gain"},
+            OtherForm{"controller.kp"}, OtherForm{"actuator.kp"}, UsualRange{1e-3, 1e4}),
+      entry("controller.integral", in_integral<&PID::integral>, "output per integral of the error",
+            integral_gain, required, OtherForm{"controller.ki"}, UsualRange{1e-3, 1e5}),
+      entry("controller.tracking_time",
+            first_of<in_integral<&PID::tracking_time>, in_law<&CascadeController::tracking_time>>,
+            "anti-windup by back-calculation: its time constant; 0: none", unit<time>, not_negative,
+            UsualRange{1e-3, 10.0}),
+      entry("controller.derivative", in_derivative<&PID::derivative>,
+            "output per rate of the error", speed_gain, required, OtherForm{"controller.kd"},
+            OtherForm{"actuator.kv"}, UsualRange{1e-4, 1e3}),
+      entry("controller.filter",
+            first_of<in_derivative<&PID::filter>, in_law<&CascadeController::filter>>,
+            "time constant of the filter of the derivative, or of a cascade's measured "
+            "speed; 0: none",
+            unit<time>, not_negative, UsualRange{1e-4, 0.1}),
+      entry("controller.derivative_of", in_derivative<&PID::derivative_of_speed>,
+            "input of the derivative: the error, or the measured speed", Words{"error", "speed"}),
+
+      entry("controller.position", in_law<&CascadeController::position>,
+            "commanded speed per position error", unit<rate>, required, UsualRange{0.1, 1000.0}),
+      entry("controller.speed", in_law<&CascadeController::speed>, "output per speed error",
+            speed_gain, required, UsualRange{1e-4, 1e3}),
+      entry("controller.speed_integral", in_law<&CascadeController::speed_integral>,
+            "output per integral of the speed error", gain, UsualRange{1e-3, 1e4}),
+      entry("controller.gain",
+            first_of<in_law<&LeadLagController::gain>, in_law<&TransferFunctionController::gain>,
+                     in_law<&StateSpaceController::gain>>,
+            "output per error, before the controller's dynamics", gain, required,
+            UsualRange{1e-3, 1e4}),
+      entry("controller.zero", in_law<&LeadLagController::zero>, "frequency of the zero",
+            unit<angular_frequency>, positive, required, UsualRange{0.1, 1e4}),
+      entry("controller.pole", in_law<&LeadLagController::pole>, "frequency of the pole",
+            unit<angular_frequency>, positive, required, UsualRange{0.1, 1e5})};
 }
 
-std::vector<Parameter> pid_parameters() {
-  return {{.path = "controller.proportional",
-           .slot = [](Drive& d) { return of_law(d, &PID::proportional); },
-           .dimension = &gain_dimension,
-           .meaning = "proportional gain, output per error",
-           .is_required = true,
-           .other_forms = {{"loop.error_gain"}, {"controller.kp"}, {"actuator.kp"}},
-           .usual = {1e-3, 1e4}},
-          {.path = "controller.integral",
-           .slot = [](Drive& d) { return of_terms(d, &PID::integral, PIDTerms::PI); },
-           .dimension = &integral_dimension,
-           .meaning = "output per integral of the error",
-           .is_required = true,
-           .other_forms = {{"controller.ki"}},
-           .usual = {1e-3, 1e5}},
-          {.path = "controller.tracking_time",
-           .slot =
-               [](Drive& d) {
-                 const Slot pid = of_terms(d, &PID::tracking_time, PIDTerms::PI);
-                 return std::holds_alternative<std::monostate>(pid)
-                            ? of_law(d, &CascadeController::tracking_time)
-                            : pid;
-               },
-           .dimension = &always<time>,
-           .meaning = "anti-windup by back-calculation: its time constant; 0: none",
-           .permitted = Permitted::not_negative,
-           .usual = {1e-3, 10.0}},
-          {.path = "controller.derivative",
-           .slot = [](Drive& d) { return of_terms(d, &PID::derivative, PIDTerms::PD); },
-           .dimension = &speed_gain_dimension,
-           .meaning = "output per rate of the error",
-           .is_required = true,
-           .other_forms = {{"controller.kd"}, {"actuator.kv"}},
-           .usual = {1e-4, 1e3}},
-          {.path = "controller.filter",
-           .slot =
-               [](Drive& d) {
-                 const Slot pid = of_terms(d, &PID::filter, PIDTerms::PD);
-                 return std::holds_alternative<std::monostate>(pid)
-                            ? of_law(d, &CascadeController::filter)
-                            : pid;
-               },
-           .dimension = &always<time>,
-           .meaning = "time constant of the filter of the derivative, or of a cascade's measured "
-                      "speed; 0: none",
-           .permitted = Permitted::not_negative,
-           .usual = {1e-4, 0.1}},
-          {.path = "controller.derivative_of",
-           .slot = &input_of_derivative,
-           .meaning = "input of the derivative: the error, or the measured speed",
-           .choices = {"error", "speed"}}};
-}
-
-std::vector<Parameter> other_laws() {
-  return {{.path = "controller.position",
-           .slot = [](Drive& d) { return of_law(d, &CascadeController::position); },
-           .dimension = &always<rate>,
-           .meaning = "commanded speed per position error",
-           .is_required = true,
-           .usual = {0.1, 1000.0}},
-          {.path = "controller.speed",
-           .slot = [](Drive& d) { return of_law(d, &CascadeController::speed); },
-           .dimension = &speed_gain_dimension,
-           .meaning = "output per speed error",
-           .is_required = true,
-           .usual = {1e-4, 1e3}},
-          {.path = "controller.speed_integral",
-           .slot = [](Drive& d) { return of_law(d, &CascadeController::speed_integral); },
-           .dimension = &gain_dimension,
-           .meaning = "output per integral of the speed error",
-           .usual = {1e-3, 1e4}},
-          {.path = "controller.gain",
-           .slot =
-               [](Drive& d) {
-                 if (!has_law(d)) return Slot{};
-                 return std::visit(
-                     [](auto& law) {
-                       if constexpr (requires { law.gain; }) {
-                         return Slot{&law.gain};
-                       } else {
-                         return Slot{};
-                       }
-                     },
-                     d.controller.law);
-               },
-           .dimension = &gain_dimension,
-           .meaning = "output per error, before the controller's dynamics",
-           .is_required = true,
-           .usual = {1e-3, 1e4}},
-          {.path = "controller.zero",
-           .slot = [](Drive& d) { return of_law(d, &LeadLagController::zero); },
-           .dimension = &always<angular_frequency>,
-           .meaning = "frequency of the zero",
-           .permitted = Permitted::positive,
-           .is_required = true,
-           .usual = {0.1, 1e4}},
-          {.path = "controller.pole",
-           .slot = [](Drive& d) { return of_law(d, &LeadLagController::pole); },
-           .dimension = &always<angular_frequency>,
-           .meaning = "frequency of the pole",
-           .permitted = Permitted::positive,
-           .is_required = true,
-           .usual = {0.1, 1e5}}};
-}
-
-constexpr char coefficients[] =
-    "a list of numbers, the coefficients by descending powers, such as [1, 2.5]";
+constexpr Wanted coefficients{
+    "a list of numbers, the coefficients by descending powers, such as [1, 2.5]"};
 
 std::vector<Parameter> matrix_parameters() {
-  return {{.path = "controller.num",
-           .slot = [](Drive& d) { return of_law(d, &TransferFunctionController::numerator); },
-           .meaning = "coefficients of the numerator by descending powers",
-           .is_required = true,
-           .wanted = coefficients},
-          {.path = "controller.den",
-           .slot = [](Drive& d) { return of_law(d, &TransferFunctionController::denominator); },
-           .meaning = "coefficients of the denominator by descending powers",
-           .is_required = true,
-           .wanted = coefficients},
-          {.path = "controller.variable",
-           .slot =
-               [](Drive& d) {
-                 const Slot member = of_law(d, &TransferFunctionController::gain);
-                 if (std::holds_alternative<std::monostate>(member)) return Slot{};
-                 return Slot{Choice{
-                     [](const Drive& drive) {
-                       return static_cast<std::size_t>(
-                           std::get<TransferFunctionController>(drive.controller.law).is_sampled);
-                     },
-                     [](Drive& drive, std::size_t choice) {
-                       std::get<TransferFunctionController>(drive.controller.law).is_sampled =
-                           choice == 1;
-                     }}};
-               },
-           .meaning = "variable of the transfer function: s, or z if it is sampled",
-           .choices = {"s", "z"}},
-          {.path = "controller.A",
-           .slot = [](Drive& d) { return of_law(d, &StateSpaceController::A); },
-           .meaning = "state matrix",
-           .is_required = true,
-           .wanted = "a list of rows of numbers"},
-          {.path = "controller.B",
-           .slot = [](Drive& d) { return of_law(d, &StateSpaceController::B); },
-           .meaning = "input matrix, for the error or for r, y and v",
-           .is_required = true,
-           .wanted = "a list of rows of 1 or 3 numbers"},
-          {.path = "controller.C",
-           .slot = [](Drive& d) { return of_law(d, &StateSpaceController::C); },
-           .meaning = "output row",
-           .is_required = true,
-           .wanted = "a list of numbers, one for each state"},
-          {.path = "controller.D",
-           .slot = [](Drive& d) { return of_law(d, &StateSpaceController::D); },
-           .meaning = "direct row, for the error or for r, y and v",
-           .is_required = true,
-           .wanted = "a list of 1 or 3 numbers"}};
+  return {entry("controller.num", in_law<&TransferFunctionController::numerator>,
+                "coefficients of the numerator by descending powers", required, coefficients),
+          entry("controller.den", in_law<&TransferFunctionController::denominator>,
+                "coefficients of the denominator by descending powers", required, coefficients),
+          entry("controller.variable", in_law<&TransferFunctionController::is_sampled>,
+                "variable of the transfer function: s, or z if it is sampled", Words{"s", "z"}),
+          entry("controller.A", in_law<&StateSpaceController::A>, "state matrix", required,
+                Wanted{"a list of rows of numbers"}),
+          entry("controller.B", in_law<&StateSpaceController::B>,
+                "input matrix, for the error or for r, y and v", required,
+                Wanted{"a list of rows of 1 or 3 numbers"}),
+          entry("controller.C", in_law<&StateSpaceController::C>, "output row", required,
+                Wanted{"a list of numbers, one for each state"}),
+          entry("controller.D", in_law<&StateSpaceController::D>,
+                "direct row, for the error or for r, y and v", required,
+                Wanted{"a list of 1 or 3 numbers"})};
 }
 
-std::vector<Parameter> motor_speed_feedback() {
+// ---- tachometer, sampling -----------------------------------------------------------------------
+
+template <auto member>
+constexpr Place in_sampling = at<&Drive::sampling, member>;
+
+bool is_sampled(const Drive& drive) { return drive.sampling.has_value(); }
+
+std::size_t speed_source(const Drive& drive) {
+  return drive.sampling->speed_by_differences ? 0 : 1;
+}
+void choose_speed_source(Drive& drive, std::size_t choice) {
+  drive.sampling->speed_by_differences = choice == 0;
+}
+
+std::vector<Parameter> feedback_and_sampling() {
+  constexpr double turn = 2.0 * std::numbers::pi;
   return {
-      {.path = "controller.motor_speed_feedback",
-       .slot = [](Drive& d) { return d.servo ? Slot{} : Slot{&d.controller.motor_speed_feedback}; },
-       .dimension = [](const Drive& d) -> const Dimension* {
-         const bool has_torque = std::holds_alternative<TorqueControl>(d.motor.kind);
-         return has_torque ? &torque_per_speed : &voltage_per_speed;
-       },
-       .meaning = "feedback of the motor's speed by a tachometer, beside the law",
-       .permitted = Permitted::not_negative,
-       .other_forms = {{"loop.motor_speed_feedback"}},
-       .usual = {1e-4, 10.0}}};
-}
-
-// ---- sampling -----------------------------------------------------------------------------------
-
-std::vector<Parameter> sampling_parameters() {
-  return {{.path = "sampling.period",
-           .slot = [](Drive& d) { return slot_of(d.sampling, &Sampling::period); },
-           .dimension = &always<time>,
-           .meaning = "time between two samples",
-           .permitted = Permitted::positive,
-           .is_required = true,
-           .other_forms = {{"sampling.frequency", &angular_frequency, 2.0 * std::numbers::pi},
-                           {"sampling.rate", &angular_frequency, 2.0 * std::numbers::pi},
-                           {"actuator.timestep"}},
-           .usual = {1e-5, 0.1}},
-          {.path = "sampling.delay",
-           .slot = [](Drive& d) { return slot_of(d.sampling, &Sampling::delay); },
-           .dimension = &always<time>,
-           .meaning = "time from reading to output",
-           .permitted = Permitted::not_negative,
-           .usual = {1e-6, 0.1}},
-          {.path = "sampling.method",
-           .slot =
-               [](Drive& d) {
-                 if (!d.sampling) return Slot{};
-                 return Slot{Choice{[](const Drive& drive) {
-                                      return static_cast<std::size_t>(drive.sampling->method);
-                                    },
-                                    [](Drive& drive, std::size_t choice) {
-                                      drive.sampling->method = static_cast<Discretization>(choice);
-                                    }}};
-               },
-           .meaning = "method that replaces d/dt in the controller",
-           .choices = {"tustin", "backward", "forward"}},
-          {.path = "sampling.speed",
-           .slot =
-               [](Drive& d) {
-                 if (!d.sampling) return Slot{};
-                 return Slot{Choice{[](const Drive& drive) {
-                                      return std::size_t{drive.sampling->speed_by_differences ? 0U
-                                                                                              : 1U};
-                                    },
-                                    [](Drive& drive, std::size_t choice) {
-                                      drive.sampling->speed_by_differences = choice == 0;
-                                    }}};
-               },
-           .meaning = "source of the speed: differences of the position, or a tachometer",
-           .choices = {"differences", "tachometer"}}};
+      entry("controller.motor_speed_feedback",
+            in_controller_if<is_plant, &Controller::motor_speed_feedback>,
+            "feedback of the motor's speed by a tachometer, beside the law", speed_gain,
+            not_negative, OtherForm{"loop.motor_speed_feedback"}, UsualRange{1e-4, 10.0}),
+      entry("sampling.period", in_sampling<&Sampling::period>, "time between two samples",
+            unit<time>, positive, required,
+            OtherForm{"sampling.frequency", &angular_frequency, turn},
+            OtherForm{"sampling.rate", &angular_frequency, turn}, OtherForm{"actuator.timestep"},
+            UsualRange{1e-5, 0.1}),
+      entry("sampling.delay", in_sampling<&Sampling::delay>, "time from reading to output",
+            unit<time>, not_negative, UsualRange{1e-6, 0.1}),
+      entry("sampling.method", in_sampling<&Sampling::method>,
+            "method that replaces d/dt in the controller", Words{"tustin", "backward", "forward"}),
+      entry("sampling.speed", only_if<is_sampled, choice_by<speed_source, choose_speed_source>>,
+            "source of the speed: differences of the position, or a tachometer",
+            Words{"differences", "tachometer"})};
 }
 
 }  // namespace
 
 std::vector<Parameter> control_parameters() {
-  std::vector<Parameter> list = sensor_parameters();
-  for (Parameter& parameter : encoder_parameters()) list.push_back(std::move(parameter));
-  list.push_back(controller_kind());
-  list.push_back(controller_shaft());
-  for (auto* part : {&pid_parameters, &other_laws, &matrix_parameters, &nonlinear_parameters,
-                     &firmware_parameters, &motor_speed_feedback, &sampling_parameters}) {
-    for (Parameter& parameter : (*part)()) list.push_back(std::move(parameter));
-  }
-  return list;
+  return joined({&sensor_parameters, &kind_parameters, &law_parameters, &matrix_parameters,
+                 &nonlinear_parameters, &firmware_parameters, &feedback_and_sampling});
 }
 
-}  // namespace gearlash
+}  // namespace gearlash::parameter_rows

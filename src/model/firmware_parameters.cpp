@@ -1,155 +1,69 @@
+// Parameters of a controller that is a firmware: its registers.
 #include "model/firmware.hpp"
 #include "model/parameter_list.hpp"
 
-namespace gearlash {
+namespace gearlash::parameter_rows {
 namespace {
 
-template <class Registers, class Member>
-Slot of_firmware(Drive& drive, Member Registers::*member) {
-  std::optional<Firmware>& firmware = drive.controller.firmware;
-  return drive.servo || !firmware ? Slot{} : slot_of(*firmware, member);
-}
+template <auto member>
+constexpr Place in_firmware = in_controller_if<is_plant, &Controller::firmware, member>;
 
-constexpr char plain_number[] = "a number as the firmware has it, without a unit";
-
-std::vector<Parameter> dynamixel_parameters() {
-  return {{.path = "controller.position_p_gain",
-           .slot = [](Drive& d) { return of_firmware(d, &DynamixelX::position_p_gain); },
-           .meaning = "Position P Gain (84) of a DYNAMIXEL X",
-           .permitted = Permitted::not_negative,
-           .is_required = true,
-           .wanted = plain_number,
-           .usual = {10.0, 16383.0}},
-          {.path = "controller.position_i_gain",
-           .slot = [](Drive& d) { return of_firmware(d, &DynamixelX::position_i_gain); },
-           .meaning = "Position I Gain (82) of a DYNAMIXEL X",
-           .permitted = Permitted::not_negative,
-           .usual = {1.0, 16383.0}},
-          {.path = "controller.position_d_gain",
-           .slot = [](Drive& d) { return of_firmware(d, &DynamixelX::position_d_gain); },
-           .meaning = "Position D Gain (80) of a DYNAMIXEL X",
-           .permitted = Permitted::not_negative,
-           .usual = {1.0, 16383.0}}};
-}
-
-std::vector<Parameter> odrive_parameters() {
-  return {{.path = "controller.pos_gain",
-           .slot = [](Drive& d) { return of_firmware(d, &ODrive::pos_gain); },
-           .meaning = "pos_gain of ODrive, (turn/s)/turn",
-           .permitted = Permitted::not_negative,
-           .is_required = true,
-           .wanted = plain_number,
-           .usual = {1.0, 500.0}},
-          {.path = "controller.vel_gain",
-           .slot = [](Drive& d) { return of_firmware(d, &ODrive::vel_gain); },
-           .meaning = "vel_gain of ODrive, N m/(turn/s)",
-           .permitted = Permitted::not_negative,
-           .is_required = true,
-           .wanted = plain_number,
-           .usual = {1e-3, 10.0}},
-          {.path = "controller.vel_integrator_gain",
-           .slot = [](Drive& d) { return of_firmware(d, &ODrive::vel_integrator_gain); },
-           .meaning = "vel_integrator_gain of ODrive, N m/((turn/s) s)",
-           .permitted = Permitted::not_negative,
-           .usual = {1e-3, 100.0}}};
-}
-
-std::vector<Parameter> moteus_parameters() {
-  return {{.path = "controller.pid_position_kp",
-           .slot = [](Drive& d) { return of_firmware(d, &Moteus::kp); },
-           .meaning = "servo.pid_position.kp of moteus, N m per turn of the output",
-           .permitted = Permitted::not_negative,
-           .is_required = true,
-           .wanted = plain_number,
-           .usual = {0.1, 1e4}},
-          {.path = "controller.pid_position_ki",
-           .slot = [](Drive& d) { return of_firmware(d, &Moteus::ki); },
-           .meaning = "servo.pid_position.ki of moteus, N m/s per turn of the output",
-           .permitted = Permitted::not_negative,
-           .usual = {0.1, 1e4}},
-          {.path = "controller.pid_position_kd",
-           .slot = [](Drive& d) { return of_firmware(d, &Moteus::kd); },
-           .meaning = "servo.pid_position.kd of moteus, N m per turn/s of the output",
-           .permitted = Permitted::not_negative,
-           .usual = {1e-3, 1e3}},
-          {.path = "controller.rotor_to_output_ratio",
-           .slot = [](Drive& d) { return of_firmware(d, &Moteus::rotor_to_output_ratio); },
-           .meaning = "motor_position.rotor_to_output_ratio of moteus, output turns per rotor turn",
-           .permitted = Permitted::positive,
-           .usual = {0.01, 1.0}}};
-}
-
-std::vector<Parameter> simplefoc_parameters() {
-  return {{.path = "controller.P_angle",
-           .slot = [](Drive& d) { return of_firmware(d, &SimpleFOC::angle_p); },
-           .meaning = "P_angle.P of SimpleFOC, (rad/s)/rad",
-           .permitted = Permitted::not_negative,
-           .is_required = true,
-           .wanted = plain_number,
-           .usual = {1.0, 200.0}},
-          {.path = "controller.PID_velocity_P",
-           .slot = [](Drive& d) { return of_firmware(d, &SimpleFOC::velocity_p); },
-           .meaning = "PID_velocity.P of SimpleFOC, V or A per rad/s",
-           .permitted = Permitted::not_negative,
-           .is_required = true,
-           .wanted = plain_number,
-           .usual = {1e-3, 10.0}},
-          {.path = "controller.PID_velocity_I",
-           .slot = [](Drive& d) { return of_firmware(d, &SimpleFOC::velocity_i); },
-           .meaning = "PID_velocity.I of SimpleFOC, V or A per rad",
-           .permitted = Permitted::not_negative,
-           .usual = {1e-2, 1e3}},
-          {.path = "controller.LPF_velocity_Tf",
-           .slot = [](Drive& d) { return of_firmware(d, &SimpleFOC::velocity_filter); },
-           .meaning = "LPF_velocity.Tf of SimpleFOC, s",
-           .permitted = Permitted::not_negative,
-           .usual = {1e-4, 0.1}}};
-}
-
-/// Beside those of the laws.
-Parameter tracking_time() {
-  return {.path = "controller.tracking_time",
-          .slot =
-              [](Drive& d) {
-                for (const Slot& slot : {of_firmware(d, &DynamixelX::tracking_time),
-                                         of_firmware(d, &ODrive::tracking_time),
-                                         of_firmware(d, &Moteus::tracking_time),
-                                         of_firmware(d, &SimpleFOC::tracking_time)}) {
-                  if (!std::holds_alternative<std::monostate>(slot)) return slot;
-                }
-                return Slot{};
-              },
-          .dimension = &always<dimensions::time>,
-          .meaning =
-              "anti-windup by back-calculation in place of the firmware's own: its time "
-              "constant; 0: none",
-          .permitted = Permitted::not_negative,
-          .usual = {1e-3, 10.0}};
-}
-
-template <std::size_t... which>
-void become(Firmware& firmware, std::size_t index, std::index_sequence<which...>) {
-  const Firmware all[] = {Firmware(std::in_place_index<which>)...};
-  firmware = all[index];
-}
+constexpr Wanted plain_number{"a number as the firmware has it, without a unit"};
 
 }  // namespace
 
 void take_firmware(Drive& drive, std::size_t index) {
-  Firmware& firmware = drive.controller.firmware.emplace();
-  become(firmware, index, std::make_index_sequence<std::variant_size_v<Firmware>>());
+  become(drive.controller.firmware.emplace(), index);
   const std::optional<Sampling>& stated = all_firmwares()[index].sampling;
   if (stated && !drive.sampling) drive.sampling = stated;
 }
 
 std::vector<Parameter> firmware_parameters() {
-  std::vector<Parameter> list;
-  for (auto* part :
-       {&dynamixel_parameters, &odrive_parameters, &moteus_parameters, &simplefoc_parameters}) {
-    for (Parameter& parameter : (*part)()) list.push_back(std::move(parameter));
-  }
-  list.push_back(tracking_time());
-  return list;
+  return {
+      entry("controller.position_p_gain", in_firmware<&DynamixelX::position_p_gain>,
+            "Position P Gain (84) of a DYNAMIXEL X", not_negative, required, plain_number,
+            UsualRange{10.0, 16383.0}),
+      entry("controller.position_i_gain", in_firmware<&DynamixelX::position_i_gain>,
+            "Position I Gain (82) of a DYNAMIXEL X", not_negative, UsualRange{1.0, 16383.0}),
+      entry("controller.position_d_gain", in_firmware<&DynamixelX::position_d_gain>,
+            "Position D Gain (80) of a DYNAMIXEL X", not_negative, UsualRange{1.0, 16383.0}),
+      entry("controller.pos_gain", in_firmware<&ODrive::pos_gain>,
+            "pos_gain of ODrive, (turn/s)/turn", not_negative, required, plain_number,
+            UsualRange{1.0, 500.0}),
+      entry("controller.vel_gain", in_firmware<&ODrive::vel_gain>,
+            "vel_gain of ODrive, N m/(turn/s)", not_negative, required, plain_number,
+            UsualRange{1e-3, 10.0}),
+      entry("controller.vel_integrator_gain", in_firmware<&ODrive::vel_integrator_gain>,
+            "vel_integrator_gain of ODrive, N m/((turn/s) s)", not_negative,
+            UsualRange{1e-3, 100.0}),
+      entry("controller.pid_position_kp", in_firmware<&Moteus::kp>,
+            "servo.pid_position.kp of moteus, N m per turn of the output", not_negative, required,
+            plain_number, UsualRange{0.1, 1e4}),
+      entry("controller.pid_position_ki", in_firmware<&Moteus::ki>,
+            "servo.pid_position.ki of moteus, N m/s per turn of the output", not_negative,
+            UsualRange{0.1, 1e4}),
+      entry("controller.pid_position_kd", in_firmware<&Moteus::kd>,
+            "servo.pid_position.kd of moteus, N m per turn/s of the output", not_negative,
+            UsualRange{1e-3, 1e3}),
+      entry("controller.rotor_to_output_ratio", in_firmware<&Moteus::rotor_to_output_ratio>,
+            "motor_position.rotor_to_output_ratio of moteus, output turns per rotor turn", positive,
+            UsualRange{0.01, 1.0}),
+      entry("controller.P_angle", in_firmware<&SimpleFOC::angle_p>,
+            "P_angle.P of SimpleFOC, (rad/s)/rad", not_negative, required, plain_number,
+            UsualRange{1.0, 200.0}),
+      entry("controller.PID_velocity_P", in_firmware<&SimpleFOC::velocity_p>,
+            "PID_velocity.P of SimpleFOC, V or A per rad/s", not_negative, required, plain_number,
+            UsualRange{1e-3, 10.0}),
+      entry("controller.PID_velocity_I", in_firmware<&SimpleFOC::velocity_i>,
+            "PID_velocity.I of SimpleFOC, V or A per rad", not_negative, UsualRange{1e-2, 1e3}),
+      entry("controller.LPF_velocity_Tf", in_firmware<&SimpleFOC::velocity_filter>,
+            "LPF_velocity.Tf of SimpleFOC, s", not_negative, UsualRange{1e-4, 0.1}),
+      entry("controller.tracking_time",
+            first_of<in_firmware<&DynamixelX::tracking_time>, in_firmware<&ODrive::tracking_time>,
+                     in_firmware<&Moteus::tracking_time>, in_firmware<&SimpleFOC::tracking_time>>,
+            "anti-windup by back-calculation in place of the firmware's own: its time "
+            "constant; 0: none",
+            unit<time>, not_negative, UsualRange{1e-3, 10.0})};
 }
 
-}  // namespace gearlash
+}  // namespace gearlash::parameter_rows

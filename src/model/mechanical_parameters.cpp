@@ -1,19 +1,50 @@
-#include <limits>
-
+// Parameters of the servo in the normal form, the motor, the gearbox, the load and the contact.
 #include "model/parameter_list.hpp"
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::parameter_rows {
 namespace {
 
-using namespace dimensions;
+// ---- servo --------------------------------------------------------------------------------------
 
-bool has_voltage(const Drive& drive) {
-  return !drive.servo && !std::holds_alternative<TorqueControl>(drive.motor.kind);
+template <auto member>
+constexpr Place in_servo = at<&Drive::servo, member>;
+
+std::vector<Parameter> servo_parameters() {
+  return {entry("servo.damping", in_servo<&NormalForm::damping>,
+                "damping ratio (F_M + F_L)/(2 ω_n (J_M + J_L))", of_normal_form, required,
+                UsualRange{0.01, 2.0}),
+          entry("servo.inertia_ratio", in_servo<&NormalForm::inertia_ratio>,
+                "inertia of the load over that of the motor, both at the load's shaft",
+                of_normal_form, required, UsualRange{0.05, 20.0}),
+          entry("servo.friction_ratio", in_servo<&NormalForm::friction_ratio>,
+                "friction of the load over that of both shafts", of_normal_form, required,
+                UsualRange{0.0, 1.0, false}),
+          entry("servo.backlash", in_servo<&NormalForm::backlash>,
+                "backlash at the load's shaft, from face to face", unit<angle>, of_normal_form,
+                required, UsualRange{1e-4, 1.0}),
+          entry("servo.natural_frequency", in_servo<&NormalForm::natural_frequency>,
+                "undamped natural frequency √(K/(J_M + J_L)); 1 rad/s if left out",
+                unit<angular_frequency>, positive, UsualRange{0.1, 1000.0})};
 }
 
-const Dimension* limit_dimension(const Drive& drive) {
-  return has_voltage(drive) ? &voltage : &torque;
+// ---- motor --------------------------------------------------------------------------------------
+
+template <Condition condition, auto... members>
+constexpr Place in_motor_if = only_if<condition, at<&Drive::motor, members...>>;
+template <auto... members>
+constexpr Place in_motor = in_motor_if<is_plant, members...>;
+template <auto member>
+constexpr Place in_motor_kind = in_motor<&Motor::kind, member>;
+template <auto member>
+constexpr Place in_motor_friction = in_motor<&Motor::friction, member>;
+
+/// In the order of the words.
+constexpr Place motor_kind =
+    only_if<is_plant, alternative_at<std::array{1U, 2U, 3U, 0U}, &Drive::motor, &Motor::kind>>;
+
+bool has_voltage(const Drive& drive) {
+  return is_plant(drive) && !std::holds_alternative<TorqueControl>(drive.motor.kind);
 }
 
 /// Whether the motor's no-load current gives its dry friction.
@@ -21,382 +52,160 @@ bool is_given_by_current(const Drive& drive) {
   return drive.motor.no_load_current && takes_no_load_current(drive.motor);
 }
 
-/// A slot that a drive in the normal form does not have.
-template <class Member>
-Slot of_plant(Drive& drive, Member& member) {
-  return drive.servo ? Slot{} : Slot{&member};
+bool may_have_dry_friction(const Drive& drive) {
+  return is_plant(drive) && !is_given_by_current(drive);
 }
 
-std::vector<Parameter> servo_parameters() {
-  return {{.path = "servo.damping",
-           .slot = [](Drive& d) { return slot_of(d.servo, &NormalForm::damping); },
-           .meaning = "damping ratio (F_M + F_L)/(2 ω_n (J_M + J_L))",
-           .permitted = Permitted::of_normal_form,
-           .is_required = true,
-           .usual = {0.01, 2.0}},
-          {.path = "servo.inertia_ratio",
-           .slot = [](Drive& d) { return slot_of(d.servo, &NormalForm::inertia_ratio); },
-           .meaning = "inertia of the load over that of the motor, both at the load's shaft",
-           .permitted = Permitted::of_normal_form,
-           .is_required = true,
-           .usual = {0.05, 20.0}},
-          {.path = "servo.friction_ratio",
-           .slot = [](Drive& d) { return slot_of(d.servo, &NormalForm::friction_ratio); },
-           .meaning = "friction of the load over that of both shafts",
-           .permitted = Permitted::of_normal_form,
-           .is_required = true,
-           .usual = {0.0, 1.0, false}},
-          {.path = "servo.backlash",
-           .slot = [](Drive& d) { return slot_of(d.servo, &NormalForm::backlash); },
-           .dimension = &always<angle>,
-           .meaning = "backlash at the load's shaft, from face to face",
-           .permitted = Permitted::of_normal_form,
-           .is_required = true,
-           .usual = {1e-4, 1.0}},
-          {.path = "servo.natural_frequency",
-           .slot = [](Drive& d) { return slot_of(d.servo, &NormalForm::natural_frequency); },
-           .dimension = &always<angular_frequency>,
-           .meaning = "undamped natural frequency √(K/(J_M + J_L)); 1 rad/s if left out",
-           .permitted = Permitted::positive,
-           .usual = {0.1, 1000.0}}};
+bool may_have_no_load_current(const Drive& drive) {
+  const bool is_free = drive.motor.friction.coulomb == 0.0 || is_given_by_current(drive);
+  return is_plant(drive) && is_free && takes_no_load_current(drive.motor);
 }
 
-/// All kinds of motors have a friction and an inertia; each has constants of its own.
-std::vector<Parameter> motor_constants() {
-  return {{.path = "motor.torque_constant",
-           .slot =
-               [](Drive& d) {
-                 if (d.servo) return Slot{};
-                 const Slot armature = slot_of(d.motor.kind, &ArmatureControl::torque_constant);
-                 return std::holds_alternative<std::monostate>(armature)
-                            ? slot_of(d.motor.kind, &FieldControl::torque_constant)
-                            : armature;
-               },
-           .dimension = &always<torque_per_current>,
-           .meaning = "torque per current, of the armature or of the field",
-           .permitted = Permitted::positive,
-           .is_required = true,
-           .usual = {1e-3, 10.0}},
-          {.path = "motor.torque_constant",
-           .slot =
-               [](Drive& d) {
-                 return d.servo ? Slot{} : slot_of(d.motor.kind, &TorqueControl::torque_constant);
-               },
-           .dimension = &always<torque_per_current>,
-           .meaning = "torque per current, which turns currents of the motor into torques",
-           .permitted = Permitted::positive,
-           .usual = {1e-3, 10.0}},
-          {.path = "motor.back_emf_constant",
-           .slot =
-               [](Drive& d) {
-                 return d.servo ? Slot{}
-                                : slot_of(d.motor.kind, &ArmatureControl::back_emf_constant);
-               },
-           .dimension = &always<voltage_per_speed>,
-           .meaning = "voltage per speed",
-           .permitted = Permitted::not_negative,
-           .is_required = true,
-           .other_forms = {{"motor.speed_constant", &speed_per_voltage}},
-           .usual = {1e-3, 10.0}},
-          {.path = "motor.resistance",
-           .slot =
-               [](Drive& d) {
-                 if (d.servo) return Slot{};
-                 const Slot armature = slot_of(d.motor.kind, &ArmatureControl::resistance);
-                 return std::holds_alternative<std::monostate>(armature)
-                            ? slot_of(d.motor.kind, &FieldControl::resistance)
-                            : armature;
-               },
-           .dimension = &always<resistance>,
-           .meaning = "resistance of the controlled winding",
-           .permitted = Permitted::positive,
-           .is_required = true,
-           .usual = {0.01, 1000.0}},
-          {.path = "motor.inductance",
-           .slot =
-               [](Drive& d) {
-                 return d.servo ? Slot{} : slot_of(d.motor.kind, &ArmatureControl::inductance);
-               },
-           .dimension = &always<inductance>,
-           .meaning = "inductance of the armature; 0: the current follows the voltage at once",
-           .permitted = Permitted::not_negative,
-           .usual = {1e-6, 1.0}}};
+bool may_have_torque_limit(const Drive& drive) {
+  const bool is_by_current = drive.motor.current_limit && limits_torque_by_current(drive.motor);
+  return is_plant(drive) && !has_voltage(drive) && !is_by_current;
 }
 
-std::vector<Parameter> two_phase_constants() {
-  return {{.path = "motor.torque_per_volt",
-           .slot =
-               [](Drive& d) {
-                 return d.servo ? Slot{} : slot_of(d.motor.kind, &TwoPhase::torque_per_volt);
-               },
-           .dimension = &always<torque_per_voltage>,
-           .meaning = "slope of torque over voltage",
-           .permitted = Permitted::positive,
-           .is_required = true,
-           .usual = {1e-4, 1.0}},
-          {.path = "motor.torque_per_speed",
-           .slot =
-               [](Drive& d) {
-                 return d.servo ? Slot{} : slot_of(d.motor.kind, &TwoPhase::torque_per_speed);
-               },
-           .dimension = &always<torque_per_speed>,
-           .meaning = "slope of torque over speed, taken positive",
-           .permitted = Permitted::not_negative,
-           .is_required = true,
-           .usual = {1e-7, 1e-1}}};
+bool may_have_current_limit(const Drive& drive) {
+  const bool is_free =
+      !limits_torque_by_current(drive.motor) || !drive.motor.limit || drive.motor.current_limit;
+  return is_plant(drive) && is_free && takes_current_limit(drive.motor);
 }
 
-Parameter motor_kind() {
-  return {.path = "motor.kind",
-          .slot =
-              [](Drive& d) {
-                if (d.servo) return Slot{};
-                return Slot{Choice{[](const Drive& drive) {
-                                     constexpr std::size_t order[] = {3, 0, 1, 2};
-                                     return order[drive.motor.kind.index()];
-                                   },
-                                   [](Drive& drive, std::size_t choice) {
-                                     MotorKind& kind = drive.motor.kind;
-                                     if (choice == 0) kind = ArmatureControl{};
-                                     if (choice == 1) kind = FieldControl{};
-                                     if (choice == 2) kind = TwoPhase{};
-                                     if (choice == 3) kind = TorqueControl{};
-                                   }}};
-              },
-          .meaning = "kind of motor: the controller outputs volts to a winding, or torque",
-          .is_required = true,
-          .choices = {"armature-controlled", "field-controlled", "two-phase", "torque-controlled"},
-          .other_words = {{"brushed-dc", 0}}};
+/// Each kind of motor has constants of its own.
+std::vector<Parameter> motor_parameters() {
+  return {entry("motor.kind", motor_kind,
+                "kind of motor: the controller outputs volts to a winding, or torque",
+                Words{"armature-controlled", "field-controlled", "two-phase", "torque-controlled"},
+                OtherWord{"brushed-dc", 0}, required),
+          entry("motor.inertia", in_motor<&Motor::inertia>,
+                "moment of inertia of the rotor, at its own shaft", unit<inertia>, not_negative,
+                required, OtherForm{"joint.armature"}, UsualRange{1e-8, 1e-1}),
+          entry("motor.friction", in_motor_friction<&Friction::viscous>,
+                "viscous friction of the motor, without its back-EMF", unit<torque_per_speed>,
+                not_negative, required, OtherForm{"joint.damping"}, UsualRange{1e-8, 1e-1}),
+          entry("motor.torque_constant",
+                first_of<in_motor_kind<&ArmatureControl::torque_constant>,
+                         in_motor_kind<&FieldControl::torque_constant>>,
+                "torque per current, of the armature or of the field", unit<torque_per_current>,
+                positive, required, UsualRange{1e-3, 10.0}),
+          entry("motor.torque_constant", in_motor_kind<&TorqueControl::torque_constant>,
+                "torque per current, which turns currents of the motor into torques",
+                unit<torque_per_current>, positive, UsualRange{1e-3, 10.0}),
+          entry("motor.back_emf_constant", in_motor_kind<&ArmatureControl::back_emf_constant>,
+                "voltage per speed", unit<voltage_per_speed>, not_negative, required,
+                OtherForm{"motor.speed_constant", &speed_per_voltage}, UsualRange{1e-3, 10.0}),
+          entry("motor.resistance",
+                first_of<in_motor_kind<&ArmatureControl::resistance>,
+                         in_motor_kind<&FieldControl::resistance>>,
+                "resistance of the controlled winding", unit<resistance>, positive, required,
+                UsualRange{0.01, 1000.0}),
+          entry("motor.inductance", in_motor_kind<&ArmatureControl::inductance>,
+                "inductance of the armature; 0: the current follows the voltage at once",
+                unit<inductance>, not_negative, UsualRange{1e-6, 1.0}),
+          entry("motor.torque_per_volt", in_motor_kind<&TwoPhase::torque_per_volt>,
+                "slope of torque over voltage", unit<torque_per_voltage>, positive, required,
+                UsualRange{1e-4, 1.0}),
+          entry("motor.torque_per_speed", in_motor_kind<&TwoPhase::torque_per_speed>,
+                "slope of torque over speed, taken positive", unit<torque_per_speed>, not_negative,
+                required, UsualRange{1e-7, 1e-1})};
 }
 
-std::vector<Parameter> rotor_parameters() {
-  return {motor_kind(),
-          {.path = "motor.inertia",
-           .slot = [](Drive& d) { return of_plant(d, d.motor.inertia); },
-           .dimension = &always<inertia>,
-           .meaning = "moment of inertia of the rotor, at its own shaft",
-           .permitted = Permitted::not_negative,
-           .is_required = true,
-           .other_forms = {{"joint.armature"}},
-           .usual = {1e-8, 1e-1}},
-          {.path = "motor.friction",
-           .slot = [](Drive& d) { return of_plant(d, d.motor.friction.viscous); },
-           .dimension = &always<torque_per_speed>,
-           .meaning = "viscous friction of the motor, without its back-EMF",
-           .permitted = Permitted::not_negative,
-           .is_required = true,
-           .other_forms = {{"joint.damping"}},
-           .usual = {1e-8, 1e-1}}};
-}
-
-std::vector<Parameter> motor_dry_friction() {
+std::vector<Parameter> motor_frictions_and_limits() {
   return {
-      {.path = "motor.coulomb",
-       .slot =
-           [](Drive& d) {
-             return is_given_by_current(d) ? Slot{} : of_plant(d, d.motor.friction.coulomb);
-           },
-       .dimension = &always<torque>,
-       .meaning = "dry friction of the motor while it moves",
-       .permitted = Permitted::not_negative,
-       .other_forms = {{"joint.frictionloss"}},
-       .usual = {1e-5, 1.0}},
-      {.path = "motor.no_load_current",
-       .slot =
-           [](Drive& d) {
-             const bool is_free = d.motor.friction.coulomb == 0.0 || is_given_by_current(d);
-             return !d.servo && is_free && takes_no_load_current(d.motor)
-                        ? Slot{&d.motor.no_load_current}
-                        : Slot{};
-           },
-       .dimension = &always<current>,
-       .meaning = "current without load; times the torque constant it is the dry friction",
-       .permitted = Permitted::not_negative,
-       .usual = {1e-3, 10.0}},
-      {.path = "motor.breakaway",
-       .slot = [](Drive& d) { return of_plant(d, d.motor.friction.breakaway); },
-       .dimension = &always<torque>,
-       .meaning = "torque that moves the motor from rest, at least its dry friction",
-       .permitted = Permitted::not_negative,
-       .otherwise = "motor.coulomb",
-       .usual = {1e-5, 1.0}},
-      {.path = "motor.stribeck_speed",
-       .slot = [](Drive& d) { return of_plant(d, d.motor.friction.stribeck_speed); },
-       .dimension = &always<angular_speed>,
-       .meaning = "speed over which the dry friction falls from breakaway to coulomb; 0: at once",
-       .permitted = Permitted::not_negative,
-       .usual = {1e-2, 100.0}}};
+      entry("motor.coulomb",
+            in_motor_if<may_have_dry_friction, &Motor::friction, &Friction::coulomb>,
+            "dry friction of the motor while it moves", unit<torque>, not_negative,
+            OtherForm{"joint.frictionloss"}, UsualRange{1e-5, 1.0}),
+      entry("motor.no_load_current", in_motor_if<may_have_no_load_current, &Motor::no_load_current>,
+            "current without load; times the torque constant it is the dry friction", unit<current>,
+            not_negative, UsualRange{1e-3, 10.0}),
+      entry("motor.breakaway", in_motor_friction<&Friction::breakaway>,
+            "torque that moves the motor from rest, at least its dry friction", unit<torque>,
+            not_negative, DefaultOf{"motor.coulomb"}, UsualRange{1e-5, 1.0}),
+      entry("motor.stribeck_speed", in_motor_friction<&Friction::stribeck_speed>,
+            "speed over which the dry friction falls from breakaway to coulomb; 0: at once",
+            unit<angular_speed>, not_negative, UsualRange{1e-2, 100.0}),
+      entry("motor.voltage_limit", in_motor_if<has_voltage, &Motor::limit>,
+            "the largest voltage that the controller can give", unit<voltage>, positive,
+            UsualRange{1.0, 1000.0}),
+      entry("motor.torque_limit", in_motor_if<may_have_torque_limit, &Motor::limit>,
+            "the largest torque that the motor can give, at its own shaft", unit<torque>, positive,
+            OtherForm{"actuator.forcerange"}, UsualRange{1e-3, 1000.0}),
+      entry("motor.current_limit", in_motor_if<may_have_current_limit, &Motor::current_limit>,
+            "the largest current, of the armature or field; times the torque constant it is the "
+            "torque limit",
+            unit<current>, positive, UsualRange{0.1, 100.0})};
 }
 
-std::vector<Parameter> motor_limits() {
+// ---- gearbox, load, contact ---------------------------------------------------------------------
+
+template <auto member>
+constexpr Place in_gearbox = only_if<is_plant, at<&Drive::gearbox, member>>;
+template <auto... members>
+constexpr Place in_load = only_if<is_plant, at<&Drive::load, members...>>;
+template <auto member>
+constexpr Place in_load_friction = in_load<&Load::friction, member>;
+template <auto member>
+constexpr Place in_contact = at<&Drive::contact, member>;
+
+std::vector<Parameter> gearbox_and_load() {
   return {
-      {.path = "motor.voltage_limit",
-       .slot = [](Drive& d) { return has_voltage(d) ? Slot{&d.motor.limit} : Slot{}; },
-       .dimension = &limit_dimension,
-       .meaning = "the largest voltage that the controller can give",
-       .permitted = Permitted::positive,
-       .usual = {1.0, 1000.0}},
-      {.path = "motor.torque_limit",
-       .slot =
-           [](Drive& d) {
-             const bool is_by_current = d.motor.current_limit && limits_torque_by_current(d.motor);
-             return d.servo || has_voltage(d) || is_by_current ? Slot{} : Slot{&d.motor.limit};
-           },
-       .dimension = &limit_dimension,
-       .meaning = "the largest torque that the motor can give, at its own shaft",
-       .permitted = Permitted::positive,
-       .other_forms = {{"actuator.forcerange"}},
-       .usual = {1e-3, 1000.0}},
-      {.path = "motor.current_limit",
-       .slot =
-           [](Drive& d) {
-             const bool is_free =
-                 !limits_torque_by_current(d.motor) || !d.motor.limit || d.motor.current_limit;
-             return !d.servo && is_free && takes_current_limit(d.motor)
-                        ? Slot{&d.motor.current_limit}
-                        : Slot{};
-           },
-       .dimension = &always<current>,
-       .meaning = "the largest current, of the armature or field; times the torque constant it is "
-                  "the torque limit",
-       .permitted = Permitted::positive,
-       .usual = {0.1, 100.0}}};
-}
+      entry("gearbox.ratio", in_gearbox<&Gearbox::ratio>, "motor turns per load turn", positive,
+            required, Wanted{"positive, motor turns per load turn"}, UsualRange{1.0, 1000.0}),
+      entry("gearbox.backlash", in_gearbox<&Gearbox::backlash>,
+            "backlash at the load's shaft, from face to face", unit<angle>, not_negative, required,
+            OtherForm{"joint.backlash"}, UsualRange{1e-5, 0.1}),
+      entry("gearbox.inertia", in_gearbox<&Gearbox::inertia>,
+            "moment of inertia of the gears, at the motor's shaft", unit<inertia>, not_negative,
+            UsualRange{1e-9, 1e-2}),
+      entry("gearbox.efficiency", in_gearbox<&Gearbox::efficiency>,
+            "efficiency as printed; not modelled, which every answer notes", share,
+            Wanted{"a number from 0 to 1, or in percent"}, UsualRange{0.3, 1.0, false}),
 
-std::vector<Parameter> gearbox_parameters() {
-  return {{.path = "gearbox.ratio",
-           .slot = [](Drive& d) { return of_plant(d, d.gearbox.ratio); },
-           .meaning = "motor turns per load turn",
-           .permitted = Permitted::positive,
-           .is_required = true,
-           .wanted = "positive, motor turns per load turn",
-           .usual = {1.0, 1000.0}},
-          {.path = "gearbox.backlash",
-           .slot = [](Drive& d) { return of_plant(d, d.gearbox.backlash); },
-           .dimension = &always<angle>,
-           .meaning = "backlash at the load's shaft, from face to face",
-           .permitted = Permitted::not_negative,
-           .is_required = true,
-           .other_forms = {{"joint.backlash"}},
-           .usual = {1e-5, 0.1}},
-          {.path = "gearbox.inertia",
-           .slot = [](Drive& d) { return of_plant(d, d.gearbox.inertia); },
-           .dimension = &always<inertia>,
-           .meaning = "moment of inertia of the gears, at the motor's shaft",
-           .permitted = Permitted::not_negative,
-           .usual = {1e-9, 1e-2}},
-          {.path = "gearbox.efficiency",
-           .slot = [](Drive& d) { return of_plant(d, d.gearbox.efficiency); },
-           .meaning = "efficiency as printed; not modelled, which every answer notes",
-           .permitted = Permitted::share,
-           .wanted = "a number from 0 to 1, or in percent",
-           .usual = {0.3, 1.0, false}}};
-}
-
-std::vector<Parameter> load_parameters() {
-  return {
-      {.path = "load.inertia",
-       .slot = [](Drive& d) { return of_plant(d, d.load.inertia); },
-       .dimension = &always<inertia>,
-       .meaning = "moment of inertia of the load",
-       .permitted = Permitted::not_negative,
-       .is_required = true,
-       .usual = {1e-6, 1e4}},
-      {.path = "load.friction",
-       .slot = [](Drive& d) { return of_plant(d, d.load.friction.viscous); },
-       .dimension = &always<torque_per_speed>,
-       .meaning = "viscous friction of the load",
-       .permitted = Permitted::not_negative,
-       .is_required = true,
-       .usual = {1e-6, 1e3}},
-      {.path = "load.coulomb",
-       .slot = [](Drive& d) { return of_plant(d, d.load.friction.coulomb); },
-       .dimension = &always<torque>,
-       .meaning = "dry friction of the load while it moves",
-       .permitted = Permitted::not_negative,
-       .usual = {1e-4, 100.0}},
-      {.path = "load.breakaway",
-       .slot = [](Drive& d) { return of_plant(d, d.load.friction.breakaway); },
-       .dimension = &always<torque>,
-       .meaning = "torque that moves the load from rest, at least its dry friction",
-       .permitted = Permitted::not_negative,
-       .otherwise = "load.coulomb",
-       .usual = {1e-4, 100.0}},
-      {.path = "load.stribeck_speed",
-       .slot = [](Drive& d) { return of_plant(d, d.load.friction.stribeck_speed); },
-       .dimension = &always<angular_speed>,
-       .meaning = "speed over which the dry friction falls from breakaway to coulomb; 0: at once",
-       .permitted = Permitted::not_negative,
-       .usual = {1e-4, 1.0}},
-      {.path = "load.gravity",
-       .slot = [](Drive& d) { return of_plant(d, d.load.gravity); },
-       .dimension = &always<torque>,
-       .meaning = "torque of the load's weight while its center of mass is level with its axis",
-       .usual = {1e-3, 1e3}},
-      {.path = "load.gravity_angle",
-       .slot = [](Drive& d) { return of_plant(d, d.load.gravity_angle); },
-       .dimension = &always<angle>,
-       .meaning = "angle of the load's center of mass above the horizontal at position 0",
-       .usual = {-1.5, 1.5, false}}};
+      entry("load.inertia", in_load<&Load::inertia>, "moment of inertia of the load", unit<inertia>,
+            not_negative, required, UsualRange{1e-6, 1e4}),
+      entry("load.friction", in_load_friction<&Friction::viscous>, "viscous friction of the load",
+            unit<torque_per_speed>, not_negative, required, UsualRange{1e-6, 1e3}),
+      entry("load.coulomb", in_load_friction<&Friction::coulomb>,
+            "dry friction of the load while it moves", unit<torque>, not_negative,
+            UsualRange{1e-4, 100.0}),
+      entry("load.breakaway", in_load_friction<&Friction::breakaway>,
+            "torque that moves the load from rest, at least its dry friction", unit<torque>,
+            not_negative, DefaultOf{"load.coulomb"}, UsualRange{1e-4, 100.0}),
+      entry("load.stribeck_speed", in_load_friction<&Friction::stribeck_speed>,
+            "speed over which the dry friction falls from breakaway to coulomb; 0: at once",
+            unit<angular_speed>, not_negative, UsualRange{1e-4, 1.0}),
+      entry("load.gravity", in_load<&Load::gravity>,
+            "torque of the load's weight while its center of mass is level with its axis",
+            unit<torque>, UsualRange{1e-3, 1e3}),
+      entry("load.gravity_angle", in_load<&Load::gravity_angle>,
+            "angle of the load's center of mass above the horizontal at position 0", unit<angle>,
+            UsualRange{-1.5, 1.5, false})};
 }
 
 std::vector<Parameter> contact_parameters() {
-  return {{.path = "contact.kind",
-           .slot =
-               [](Drive&) {
-                 return Slot{Choice{[](const Drive& drive) { return drive.contact.index(); },
-                                    [](Drive& drive, std::size_t choice) {
-                                      if (choice == 0) drive.contact = RigidContact{};
-                                      if (choice == 1) drive.contact = CompliantContact{};
-                                    }}};
-               },
-           .meaning = "whether the faces are rigid or compliant",
-           .choices = {"rigid", "compliant"}},
-          {.path = "contact.restitution",
-           .slot = [](Drive& d) { return slot_of(d.contact, &RigidContact::restitution); },
-           .meaning = "coefficient of restitution: 0 plastic, 1 elastic",
-           .permitted = Permitted::share,
-           .usual = {0.0, 0.95, false}},
-          {.path = "contact.stiffness",
-           .slot = [](Drive& d) { return slot_of(d.contact, &CompliantContact::stiffness); },
-           .dimension = &always<torque_per_angle>,
-           .meaning = "stiffness of the faces, at the load's shaft",
-           .permitted = Permitted::positive,
-           .is_required = true,
-           .usual = {1.0, 1e6}},
-          {.path = "contact.damping",
-           .slot = [](Drive& d) { return slot_of(d.contact, &CompliantContact::damping); },
-           .dimension = &always<torque_per_speed>,
-           .meaning = "damping of the faces, at the load's shaft",
-           .permitted = Permitted::not_negative,
-           .usual = {1e-3, 1e4}},
-          {.path = "contact.law",
-           .slot =
-               [](Drive& d) {
-                 if (!std::holds_alternative<CompliantContact>(d.contact)) return Slot{};
-                 return Slot{Choice{[](const Drive& drive) {
-                                      const auto& faces = std::get<CompliantContact>(drive.contact);
-                                      return static_cast<std::size_t>(faces.law);
-                                    },
-                                    [](Drive& drive, std::size_t choice) {
-                                      std::get<CompliantContact>(drive.contact).law =
-                                          choice == 0 ? ContactDamping::limited
-                                                      : ContactDamping::full;
-                                    }}};
-               },
-           .meaning = "law of the damping of the faces, as in Modelica",
-           .choices = {"ElastoBacklash", "ElastoBacklash2"}}};
+  return {entry("contact.kind", alternative_at<std::array{0U, 1U}, &Drive::contact>,
+                "whether the faces are rigid or compliant", Words{"rigid", "compliant"}),
+          entry("contact.restitution", in_contact<&RigidContact::restitution>,
+                "coefficient of restitution: 0 plastic, 1 elastic", share,
+                UsualRange{0.0, 0.95, false}),
+          entry("contact.stiffness", in_contact<&CompliantContact::stiffness>,
+                "stiffness of the faces, at the load's shaft", unit<torque_per_angle>, positive,
+                required, UsualRange{1.0, 1e6}),
+          entry("contact.damping", in_contact<&CompliantContact::damping>,
+                "damping of the faces, at the load's shaft", unit<torque_per_speed>, not_negative,
+                UsualRange{1e-3, 1e4}),
+          entry("contact.law", in_contact<&CompliantContact::law>,
+                "law of the damping of the faces, as in Modelica",
+                Words{"ElastoBacklash", "ElastoBacklash2"})};
 }
 
 }  // namespace
 
 std::vector<Parameter> mechanical_parameters() {
-  std::vector<Parameter> list = servo_parameters();
-  for (auto* part : {&rotor_parameters, &motor_constants, &two_phase_constants, &motor_dry_friction,
-                     &motor_limits, &gearbox_parameters, &load_parameters, &contact_parameters}) {
-    for (Parameter& parameter : (*part)()) list.push_back(std::move(parameter));
-  }
-  return list;
+  return joined({&servo_parameters, &motor_parameters, &motor_frictions_and_limits,
+                 &gearbox_and_load, &contact_parameters});
 }
 
-}  // namespace gearlash
+}  // namespace gearlash::parameter_rows

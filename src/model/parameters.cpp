@@ -7,15 +7,20 @@
 
 namespace gearlash {
 
+std::vector<Parameter> parameter_rows::joined(
+    std::initializer_list<std::vector<Parameter> (*)()> lists) {
+  std::vector<Parameter> all;
+  for (auto* list : lists) {
+    std::vector<Parameter> part = list();
+    std::move(part.begin(), part.end(), std::back_inserter(all));
+  }
+  return all;
+}
+
 const std::vector<Parameter>& all_parameters_of_drives() {
-  static const std::vector<Parameter> all = [] {
-    std::vector<Parameter> list = mechanical_parameters();
-    for (auto* more : {&control_parameters, &signal_parameters}) {
-      std::vector<Parameter> part = (*more)();
-      std::move(part.begin(), part.end(), std::back_inserter(list));
-    }
-    return list;
-  }();
+  using namespace parameter_rows;
+  static const std::vector<Parameter> all =
+      joined({&mechanical_parameters, &control_parameters, &signal_parameters});
   return all;
 }
 

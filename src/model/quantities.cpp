@@ -5,207 +5,159 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <type_traits>
+
+#include "base/member_path.hpp"
 
 namespace gearlash {
+namespace quantity_rows {
 namespace {
 
 using Value = std::optional<double>;
 
-/// The motion seen in practice: a cycle, or an irregular motion.
-struct Seen {
-  const Cycle* cycle = nullptr;
-  const IrregularMotion* irregular = nullptr;
-};
+// ---- values -------------------------------------------------------------------------------------
 
-Seen seen_in(const Answer& answer) {
-  if (const Cycle* cycle = answer.largest_stable()) return {cycle, nullptr};
-  return {nullptr, answer.irregular.empty() ? nullptr : &answer.irregular.front()};
+template <class Member>
+Value value_of(const Member* member) {
+  if (member == nullptr) return std::nullopt;
+  if constexpr (std::is_enum_v<Member>) {
+    return static_cast<double>(*member);
+  } else {
+    return *member;
+  }
 }
 
-bool is_quiet(const Answer& answer) {
-  return answer.verdict == Verdict::cannot_hunt || answer.verdict == Verdict::comes_to_rest;
+/// The member of an answer to which the member pointers lead; see follow().
+template <auto... members>
+Value at(const Answer& answer) {
+  return value_of(follow<members...>(&answer));
 }
 
-template <auto member>
+/// Likewise, of the largest cycle that is not unstable.
+template <auto... members>
 Value of_cycle(const Answer& answer) {
-  const Seen seen = seen_in(answer);
-  return seen.cycle != nullptr ? Value(seen.cycle->*member) : std::nullopt;
+  return value_of(follow<members...>(answer.largest_stable()));
 }
 
-template <auto member>
-Value of_energy(const Answer& answer) {
-  const Seen seen = seen_in(answer);
-  if (seen.cycle == nullptr || !seen.cycle->energy) return std::nullopt;
-  return (*seen.cycle->energy).*member;
+/// Of the motion seen in practice: that cycle, or else an irregular motion.
+template <auto member, auto member_of_irregular>
+Value of_motion(const Answer& answer) {
+  if (answer.largest_stable() != nullptr || answer.irregular.empty()) {
+    return of_cycle<member>(answer);
+  }
+  return value_of(follow<member_of_irregular>(&answer.irregular.front()));
 }
 
-Value amplitude_of(const Answer& answer) {
-  const Seen seen = seen_in(answer);
-  if (seen.cycle != nullptr) return seen.cycle->amplitude;
-  if (seen.irregular != nullptr) return seen.irregular->amplitude;
-  return is_quiet(answer) ? Value(0.0) : std::nullopt;
+/// The same, and 0 without a motion if the drive comes to rest.
+template <auto member, auto member_of_irregular>
+Value of_motion_or_rest(const Answer& answer) {
+  const bool is_quiet =
+      answer.verdict == Verdict::cannot_hunt || answer.verdict == Verdict::comes_to_rest;
+  if (is_quiet && answer.largest_stable() == nullptr && answer.irregular.empty()) return 0.0;
+  return of_motion<member, member_of_irregular>(answer);
 }
 
-Value motor_amplitude_of(const Answer& answer) {
-  const Seen seen = seen_in(answer);
-  if (seen.cycle != nullptr) return seen.cycle->motor_amplitude;
-  if (seen.irregular != nullptr) return seen.irregular->motor_amplitude;
-  return is_quiet(answer) ? Value(0.0) : std::nullopt;
+constexpr auto period = of_motion<&Cycle::period, &IrregularMotion::mean_period>;
+
+Value frequency(const Answer& answer) {
+  const Value seconds = period(answer);
+  return seconds ? Value(1.0 / *seconds) : std::nullopt;
 }
 
-Value center_of(const Answer& answer) {
-  const Seen seen = seen_in(answer);
-  if (seen.cycle != nullptr) return seen.cycle->center;
-  return seen.irregular != nullptr ? Value(seen.irregular->center) : std::nullopt;
-}
-
-Value period_of(const Answer& answer) {
-  const Seen seen = seen_in(answer);
-  if (seen.cycle != nullptr) return seen.cycle->period;
-  return seen.irregular != nullptr ? seen.irregular->mean_period : std::nullopt;
-}
-
-Value frequency_of(const Answer& answer) {
-  const Value period = period_of(answer);
-  return period ? Value(1.0 / *period) : std::nullopt;
-}
-
-Value static_error_of(const Answer& answer) {
+Value static_error(const Answer& answer) {
   if (!answer.rest) return std::nullopt;
   return std::max(std::abs(answer.rest->error.low), std::abs(answer.rest->error.high));
 }
 
-Value time_to_rest_of(const Answer& answer) {
-  return answer.rest && answer.rest->time ? Value(answer.rest->time->longest) : std::nullopt;
+// ---- the list -----------------------------------------------------------------------------------
+
+struct Unit {
+  std::string_view name;
+  const Dimension* dimension = nullptr;
+};
+constexpr Unit none{""};  // of a choice
+constexpr Unit one{"1"};
+constexpr Unit radian{"rad", &dimensions::angle};
+constexpr Unit radian_per_second{"rad/s", &dimensions::angular_speed};
+constexpr Unit second{"s", &dimensions::time};
+constexpr Unit hertz{"Hz", &dimensions::rate};
+constexpr Unit newton_metre{"N m", &dimensions::torque};
+constexpr Unit joule{"J"};
+
+constexpr QuantityEntry entry(Quantity quantity, std::string_view name, const Unit& unit,
+                              QuantityScope scope, std::string_view meaning,
+                              Value (*value)(const Answer&), std::string_view older_name = {}) {
+  const QuantityKind kind = unit.name.empty() ? QuantityKind::choice : QuantityKind::number;
+  return {{quantity, name, unit.name, meaning, scope, kind}, unit.dimension, value, older_name};
 }
 
-template <auto member>
-Value of_ceiling(const Answer& answer) {
-  return answer.ceiling ? (*answer.ceiling).*member : std::nullopt;
-}
-
-template <auto member>
-Value of_loop(const Answer& answer) {
-  return answer.loop ? (*answer.loop).*member : std::nullopt;
-}
-
-template <auto member>
-Value of_step(const Answer& answer) {
-  return answer.step ? (*answer.step).*member : std::nullopt;
-}
-
-constexpr auto of_answer = QuantityScope::answer;
-constexpr auto of_motion = QuantityScope::motion;
-constexpr auto number = QuantityKind::number;
+using enum QuantityScope;
 
 /// In the order of Quantity.
 constexpr std::array entries = {
-    QuantityEntry{
-        .info = {Quantity::verdict, "verdict", "", "what the motion of the drive ends in",
-                 of_answer, QuantityKind::choice},
-        .value = [](const Answer& answer) -> Value { return static_cast<double>(answer.verdict); }},
-    QuantityEntry{.info = {Quantity::growth_at_rest, "growth_at_rest", "1",
-                           "growth at rest: the servo hunts when it exceeds 1", of_answer, number},
-                  .value = [](const Answer& answer) { return answer.growth_at_rest; }},
-    QuantityEntry{.info = {Quantity::amplitude, "amplitude", "rad",
-                           "amplitude of the load, half peak-to-peak", of_motion, number},
-                  .dimension = &dimensions::angle,
-                  .value = amplitude_of,
-                  .older_name = "size"},
-    QuantityEntry{.info = {Quantity::motor_amplitude, "motor_amplitude", "rad",
-                           "amplitude of the motor at the load's shaft, half peak-to-peak",
-                           of_motion, number},
-                  .dimension = &dimensions::angle,
-                  .value = motor_amplitude_of,
-                  .older_name = "motor_size"},
-    QuantityEntry{.info = {Quantity::center, "center", "rad",
-                           "mean of the load's extremes, from the reference", of_motion, number},
-                  .dimension = &dimensions::angle,
-                  .value = center_of},
-    QuantityEntry{
-        .info = {Quantity::period, "period", "s", "period of the limit cycle", of_motion, number},
-        .dimension = &dimensions::time,
-        .value = period_of},
-    QuantityEntry{.info = {Quantity::frequency, "frequency", "Hz", "frequency of the limit cycle",
-                           of_motion, number},
-                  .dimension = &dimensions::rate,
-                  .value = frequency_of},
-    QuantityEntry{.info = {Quantity::multiplier, "multiplier", "1",
-                           "Floquet multiplier over a period", of_motion, number},
-                  .value = of_cycle<&Cycle::multiplier>},
-    QuantityEntry{.info = {Quantity::impact_speed, "impact_speed", "rad/s",
-                           "relative speed before the hardest impact", of_motion, number},
-                  .dimension = &dimensions::angular_speed,
-                  .value = of_cycle<&Cycle::impact_speed>},
-    QuantityEntry{.info = {Quantity::engaged_time, "engaged_time", "s",
-                           "time per period with the faces engaged", of_motion, number},
-                  .dimension = &dimensions::time,
-                  .value = of_cycle<&Cycle::engaged_time>},
-    QuantityEntry{.info = {Quantity::separated_time, "separated_time", "s",
-                           "time per period with the faces apart", of_motion, number},
-                  .dimension = &dimensions::time,
-                  .value = of_cycle<&Cycle::separated_time>},
-    QuantityEntry{.info = {Quantity::motor_friction_loss, "motor_friction_loss", "J",
-                           "energy lost in the motor's friction over a period", of_motion, number},
-                  .value = of_energy<&EnergyLost::motor_friction>},
-    QuantityEntry{.info = {Quantity::load_friction_loss, "load_friction_loss", "J",
-                           "energy lost in the load's friction over a period", of_motion, number},
-                  .value = of_energy<&EnergyLost::load_friction>},
-    QuantityEntry{.info = {Quantity::impact_loss, "impact_loss", "J",
-                           "energy lost at impacts over a period", of_motion, number},
-                  .value = of_energy<&EnergyLost::impacts>},
-    QuantityEntry{.info = {Quantity::residual, "residual", "1",
-                           "relative mismatch of the state after one cycle", of_motion, number},
-                  .value = of_cycle<&Cycle::residual>},
-    QuantityEntry{
-        .info = {Quantity::static_error, "static_error", "rad",
-                 "largest error at rest that was found, reference minus load", of_answer, number},
-        .dimension = &dimensions::angle,
-        .value = static_error_of},
-    QuantityEntry{
-        .info = {Quantity::time_to_rest, "time_to_rest", "s",
-                 "longest time to rest of the starts that were searched", of_answer, number},
-        .dimension = &dimensions::time,
-        .value = time_to_rest_of},
-    QuantityEntry{
-        .info = {Quantity::ceiling, "ceiling", "rad",
-                 "proved bound of the load's motion in the end", QuantityScope::ceiling, number},
-        .dimension = &dimensions::angle,
-        .value = of_ceiling<&Ceiling::load>},
-    QuantityEntry{.info = {Quantity::motor_ceiling, "motor_ceiling", "rad",
-                           "proved bound of the motor's motion in the end, at the load's shaft",
-                           QuantityScope::ceiling, number},
-                  .dimension = &dimensions::angle,
-                  .value = of_ceiling<&Ceiling::motor>},
-    QuantityEntry{.info = {Quantity::effort_ceiling, "effort_ceiling", "N m",
-                           "proved bound of the motor's torque in the end, at the load's shaft",
-                           QuantityScope::ceiling, number},
-                  .dimension = &dimensions::torque,
-                  .value = of_ceiling<&Ceiling::effort>},
-    QuantityEntry{
-        .info = {Quantity::bandwidth, "bandwidth", "Hz",
-                 "bandwidth of the linear loop without the gap", QuantityScope::loop, number},
-        .dimension = &dimensions::rate,
-        .value = of_loop<&LinearLoop::bandwidth>},
-    QuantityEntry{
-        .info = {Quantity::phase_margin, "phase_margin", "rad",
-                 "phase margin of the linear loop without the gap", QuantityScope::loop, number},
-        .dimension = &dimensions::angle,
-        .value = of_loop<&LinearLoop::phase_margin>},
-    QuantityEntry{.info = {Quantity::rise_time, "rise_time", "s",
-                           "time in which a step of the reference takes the load from 10 % to 90 %",
-                           QuantityScope::step, number},
-                  .dimension = &dimensions::time,
-                  .value = of_step<&StepResponse::rise_time>},
-    QuantityEntry{.info = {Quantity::overshoot, "overshoot", "1",
-                           "by which the load exceeds a step of the reference, as a share of it",
-                           QuantityScope::step, number},
-                  .value = of_step<&StepResponse::overshoot>},
-    QuantityEntry{.info = {Quantity::settling_time, "settling_time", "s",
-                           "time after which the load stays within 5 % of a step of the reference",
-                           QuantityScope::step, number},
-                  .dimension = &dimensions::time,
-                  .value = of_step<&StepResponse::settling_time>}};
+    entry(Quantity::verdict, "verdict", none, answer, "what the motion of the drive ends in",
+          at<&Answer::verdict>),
+    entry(Quantity::growth_at_rest, "growth_at_rest", one, answer,
+          "growth at rest: the servo hunts when it exceeds 1", at<&Answer::growth_at_rest>),
+    entry(Quantity::amplitude, "amplitude", radian, motion,
+          "amplitude of the load, half peak-to-peak",
+          of_motion_or_rest<&Cycle::amplitude, &IrregularMotion::amplitude>, "size"),
+    entry(Quantity::motor_amplitude, "motor_amplitude", radian, motion,
+          "amplitude of the motor at the load's shaft, half peak-to-peak",
+          of_motion_or_rest<&Cycle::motor_amplitude, &IrregularMotion::motor_amplitude>,
+          "motor_size"),
+    entry(Quantity::center, "center", radian, motion,
+          "mean of the load's extremes, from the reference",
+          of_motion<&Cycle::center, &IrregularMotion::center>),
+    entry(Quantity::period, "period", second, motion, "period of the limit cycle", period),
+    entry(Quantity::frequency, "frequency", hertz, motion, "frequency of the limit cycle",
+          frequency),
+    entry(Quantity::multiplier, "multiplier", one, motion, "Floquet multiplier over a period",
+          of_cycle<&Cycle::multiplier>),
+    entry(Quantity::impact_speed, "impact_speed", radian_per_second, motion,
+          "relative speed before the hardest impact", of_cycle<&Cycle::impact_speed>),
+    entry(Quantity::engaged_time, "engaged_time", second, motion,
+          "time per period with the faces engaged", of_cycle<&Cycle::engaged_time>),
+    entry(Quantity::separated_time, "separated_time", second, motion,
+          "time per period with the faces apart", of_cycle<&Cycle::separated_time>),
+    entry(Quantity::motor_friction_loss, "motor_friction_loss", joule, motion,
+          "energy lost in the motor's friction over a period",
+          of_cycle<&Cycle::energy, &EnergyLost::motor_friction>),
+    entry(Quantity::load_friction_loss, "load_friction_loss", joule, motion,
+          "energy lost in the load's friction over a period",
+          of_cycle<&Cycle::energy, &EnergyLost::load_friction>),
+    entry(Quantity::impact_loss, "impact_loss", joule, motion,
+          "energy lost at impacts over a period", of_cycle<&Cycle::energy, &EnergyLost::impacts>),
+    entry(Quantity::residual, "residual", one, motion,
+          "relative mismatch of the state after one cycle", of_cycle<&Cycle::residual>),
+    entry(Quantity::static_error, "static_error", radian, answer,
+          "largest error at rest that was found, reference minus load", static_error),
+    entry(Quantity::time_to_rest, "time_to_rest", second, answer,
+          "longest time to rest of the starts that were searched",
+          at<&Answer::rest, &Rest::time, &TimeToRest::longest>),
+    entry(Quantity::ceiling, "ceiling", radian, ceiling,
+          "proved bound of the load's motion in the end", at<&Answer::ceiling, &Ceiling::load>),
+    entry(Quantity::motor_ceiling, "motor_ceiling", radian, ceiling,
+          "proved bound of the motor's motion in the end, at the load's shaft",
+          at<&Answer::ceiling, &Ceiling::motor>),
+    entry(Quantity::effort_ceiling, "effort_ceiling", newton_metre, ceiling,
+          "proved bound of the motor's torque in the end, at the load's shaft",
+          at<&Answer::ceiling, &Ceiling::effort>),
+    entry(Quantity::bandwidth, "bandwidth", hertz, loop,
+          "bandwidth of the linear loop without the gap",
+          at<&Answer::loop, &LinearLoop::bandwidth>),
+    entry(Quantity::phase_margin, "phase_margin", radian, loop,
+          "phase margin of the linear loop without the gap",
+          at<&Answer::loop, &LinearLoop::phase_margin>),
+    entry(Quantity::rise_time, "rise_time", second, step,
+          "time in which a step of the reference takes the load from 10 % to 90 %",
+          at<&Answer::step, &StepResponse::rise_time>),
+    entry(Quantity::overshoot, "overshoot", one, step,
+          "by which the load exceeds a step of the reference, as a share of it",
+          at<&Answer::step, &StepResponse::overshoot>),
+    entry(Quantity::settling_time, "settling_time", second, step,
+          "time after which the load stays within 5 % of a step of the reference",
+          at<&Answer::step, &StepResponse::settling_time>)};
 
 constexpr bool are_in_order() {
   for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -216,6 +168,9 @@ constexpr bool are_in_order() {
 static_assert(are_in_order());
 
 }  // namespace
+}  // namespace quantity_rows
+
+using quantity_rows::entries;
 
 const QuantityEntry& entry_of(Quantity quantity) noexcept {
   return entries[static_cast<std::size_t>(quantity)];

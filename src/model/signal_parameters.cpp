@@ -1,231 +1,107 @@
+// Parameters of the reference and of the load torque.
 #include "model/parameter_list.hpp"
 
-namespace gearlash {
+namespace gearlash::parameter_rows {
 namespace {
 
-using namespace dimensions;
-
-/// A reference or a load torque, whose lists differ in names and dimensions only.
-struct ReferenceSignal {
-  static std::optional<Signal>& of(Drive& drive) { return drive.reference; }
-  static const std::optional<Signal>& of(const Drive& drive) { return drive.reference; }
-  static constexpr const Dimension* value = &angle;
-  static constexpr std::size_t kinds = 6;
-};
-struct LoadTorqueSignal {
-  static std::optional<Signal>& of(Drive& drive) { return drive.load_torque; }
-  static const std::optional<Signal>& of(const Drive& drive) { return drive.load_torque; }
-  static constexpr const Dimension* value = &torque;
-  static constexpr std::size_t kinds = 4;
-};
-
-// Indices into Signal's alternatives, in the order of the words. Load torques permit some of them.
-constexpr std::size_t reference_order[] = {0, 1, 2, 3, 4, 5};
-constexpr std::size_t load_torque_order[] = {0, 1, 3, 5};
-
-Signal signal_of_kind(std::size_t kind) {
-  switch (kind) {
-    case 1:
-      return StepSignal{};
-    case 2:
-      return RampSignal{};
-    case 3:
-      return SineSignal{};
-    case 4:
-      return TrapezoidSignal{};
-    case 5:
-      return TableSignal{};
-    default:
-      return 0.0;
-  }
+/// A path of one of the two signals, whose rows differ in path and unit only.
+template <auto signal>
+std::string_view path_of(std::string_view of_reference, std::string_view of_load_torque) {
+  return signal == &Drive::reference ? of_reference : of_load_torque;
 }
 
-template <class Which>
-const std::size_t* order_of() {
-  return Which::kinds == 6 ? reference_order : load_torque_order;
-}
+template <auto signal>
+constexpr DimensionRule signal_unit = signal == &Drive::reference ? unit<angle> : unit<torque>;
 
-template <class Which>
-Slot kind_slot(Drive& drive) {
-  if (!Which::of(drive)) return {};
-  return Choice{[](const Drive& d) {
-                  std::size_t word = 0;
-                  while (word < Which::kinds && order_of<Which>()[word] != Which::of(d)->index()) {
-                    ++word;
-                  }
-                  return word;
-                },
-                [](Drive& d, std::size_t choice) {
-                  Which::of(d) = signal_of_kind(order_of<Which>()[choice]);
-                }};
-}
+/// Indices of Signal's alternatives, in the order of the words. Load torques permit some of them.
+constexpr Place reference_kind =
+    alternative_at<std::array{0U, 1U, 2U, 3U, 4U, 5U}, &Drive::reference>;
+constexpr Place load_torque_kind = alternative_at<std::array{0U, 1U, 3U, 5U}, &Drive::load_torque>;
 
-template <class Which, class Kind, class Member>
-Slot member_slot(Drive& drive, Member Kind::*member) {
-  return Which::of(drive) ? slot_of(*Which::of(drive), member) : Slot{};
-}
-
-/// The first of two members that the signal has.
-template <class Which, class Kind, class Member, class... Others>
-Slot member_slot(Drive& drive, Member Kind::*member, Others... others) {
-  const Slot first = member_slot<Which>(drive, member);
-  return std::holds_alternative<std::monostate>(first) ? member_slot<Which>(drive, others...)
-                                                       : first;
-}
-
-/// Of a table that is not read from a file.
-template <class Which>
-Slot point_slot(Drive& drive, std::vector<double> TableSignal::*member) {
-  if (!Which::of(drive)) return {};
-  auto* table = std::get_if<TableSignal>(&*Which::of(drive));
-  return table == nullptr || !table->file.empty() ? Slot{} : Slot{&(table->*member)};
-}
-
-template <class Which>
-Slot constant_slot(Drive& drive) {
-  if (!Which::of(drive)) return {};
-  auto* constant = std::get_if<double>(&*Which::of(drive));
+template <auto signal>
+Slot constant_value(Drive& drive) {
+  auto* constant = std::get_if<double>(content_of(&(drive.*signal)));
   return constant == nullptr ? Slot{} : Slot{constant};
 }
 
-template <class Which>
-const Dimension* value_dimension(const Drive&) {
-  return Which::value;
+/// Whether the points of a table are not read from a file.
+template <auto signal>
+bool has_points(const Drive& drive) {
+  const std::string* file = follow<signal, &TableSignal::file>(&drive);
+  return file != nullptr && file->empty();
 }
-
-struct Paths {
-  std::string_view kind, value, before, after, mean, amplitude, frequency, phase, time, file, times,
-      values;
-};
 
 /// Parameters of both kinds of signals.
-template <class Which>
-std::vector<Parameter> shared_parameters(const Paths& paths,
-                                         const std::vector<std::string_view>& kinds) {
-  return {{.path = paths.kind,
-           .slot = &kind_slot<Which>,
-           .meaning = "shape over time",
-           .is_required = true,
-           .choices = kinds},
-          {.path = paths.value,
-           .slot = &constant_slot<Which>,
-           .dimension = &value_dimension<Which>,
-           .meaning = "constant value",
-           .is_required = true},
-          {.path = paths.before,
-           .slot = [](Drive& d) { return member_slot<Which>(d, &StepSignal::before); },
-           .dimension = &value_dimension<Which>,
-           .meaning = "value before the step"},
-          {.path = paths.after,
-           .slot = [](Drive& d) { return member_slot<Which>(d, &StepSignal::after); },
-           .dimension = &value_dimension<Which>,
-           .meaning = "value after the step",
-           .is_required = true},
-          {.path = paths.mean,
-           .slot = [](Drive& d) { return member_slot<Which>(d, &SineSignal::mean); },
-           .dimension = &value_dimension<Which>,
-           .meaning = "mean of the sine"},
-          {.path = paths.amplitude,
-           .slot = [](Drive& d) { return member_slot<Which>(d, &SineSignal::amplitude); },
-           .dimension = &value_dimension<Which>,
-           .meaning = "amplitude of the sine",
-           .is_required = true},
-          {.path = paths.frequency,
-           .slot = [](Drive& d) { return member_slot<Which>(d, &SineSignal::frequency); },
-           .dimension = &always<angular_frequency>,
-           .meaning = "frequency of the sine",
-           .permitted = Permitted::positive,
-           .is_required = true},
-          {.path = paths.phase,
-           .slot = [](Drive& d) { return member_slot<Which>(d, &SineSignal::phase); },
-           .dimension = &always<angle>,
-           .meaning = "phase of the sine at time 0"},
-          {.path = paths.time,
-           .slot =
-               [](Drive& d) {
-                 return member_slot<Which>(d, &StepSignal::time, &RampSignal::time,
-                                           &TrapezoidSignal::time);
-               },
-           .dimension = &always<time>,
-           .meaning = "start time"}};
+template <auto signal>
+std::vector<Parameter> shared_parameters() {
+  const auto path = path_of<signal>;
+  constexpr DimensionRule value_unit = signal_unit<signal>;
+  return {entry(path("reference.value", "load_torque.value"), constant_value<signal>,
+                "constant value", value_unit, required),
+          entry(path("reference.before", "load_torque.before"), at<signal, &StepSignal::before>,
+                "value before the step", value_unit),
+          entry(path("reference.after", "load_torque.after"), at<signal, &StepSignal::after>,
+                "value after the step", value_unit, required),
+          entry(path("reference.mean", "load_torque.mean"), at<signal, &SineSignal::mean>,
+                "mean of the sine", value_unit),
+          entry(path("reference.amplitude", "load_torque.amplitude"),
+                at<signal, &SineSignal::amplitude>, "amplitude of the sine", value_unit, required),
+          entry(path("reference.frequency", "load_torque.frequency"),
+                at<signal, &SineSignal::frequency>, "frequency of the sine",
+                unit<angular_frequency>, positive, required),
+          entry(path("reference.phase", "load_torque.phase"), at<signal, &SineSignal::phase>,
+                "phase of the sine at time 0", unit<angle>),
+          entry(path("reference.time", "load_torque.time"),
+                first_of<at<signal, &StepSignal::time>, at<signal, &RampSignal::time>,
+                         at<signal, &TrapezoidSignal::time>>,
+                "start time", unit<time>),
+          entry(path("reference.file", "load_torque.file"), at<signal, &TableSignal::file>,
+                "CSV file of times and values, beside the drive's file", required,
+                Wanted{"the name of a CSV file"}),
+          entry(path("reference.times", "load_torque.times"),
+                only_if<has_points<signal>, at<signal, &TableSignal::times>>,
+                "times of the points in s, rising, instead of a file", required,
+                Wanted{"times in s, rising"}),
+          entry(path("reference.values", "load_torque.values"),
+                only_if<has_points<signal>, at<signal, &TableSignal::values>>,
+                "values at these times, rad or N m", required,
+                Wanted{"a value for each of the times"})};
 }
 
-/// The points of a table: in a file of its own, or in the drive's.
-template <class Which>
-std::vector<Parameter> table_parameters(const Paths& paths) {
-  return {{.path = paths.file,
-           .slot = [](Drive& d) { return member_slot<Which>(d, &TableSignal::file); },
-           .meaning = "CSV file of times and values, beside the drive's file",
-           .is_required = true,
-           .wanted = "the name of a CSV file"},
-          {.path = paths.times,
-           .slot = [](Drive& d) { return point_slot<Which>(d, &TableSignal::times); },
-           .meaning = "times of the points in s, rising, instead of a file",
-           .is_required = true,
-           .wanted = "times in s, rising"},
-          {.path = paths.values,
-           .slot = [](Drive& d) { return point_slot<Which>(d, &TableSignal::values); },
-           .meaning = "values at these times, rad or N m",
-           .is_required = true,
-           .wanted = "a value for each of the times"}};
+std::vector<Parameter> reference_kinds() {
+  return {entry("reference.kind", reference_kind, "shape over time", required,
+                Words{"constant", "step", "ramp", "sine", "trapezoid", "table"})};
 }
+
+std::vector<Parameter> load_torque_kinds() {
+  return {entry("load_torque.kind", load_torque_kind, "shape over time", required,
+                Words{"constant", "step", "sine", "table"})};
+}
+
+template <auto member>
+constexpr Place in_reference = at<&Drive::reference, member>;
 
 std::vector<Parameter> motion_parameters() {
-  using Which = ReferenceSignal;
-  return {{.path = "reference.value",
-           .slot = [](Drive& d) { return member_slot<Which>(d, &RampSignal::value); },
-           .dimension = &always<angle>,
-           .meaning = "value before the ramp"},
-          {.path = "reference.rate",
-           .slot = [](Drive& d) { return member_slot<Which>(d, &RampSignal::rate); },
-           .dimension = &always<angular_speed>,
-           .meaning = "speed of the ramp",
-           .is_required = true},
-          {.path = "reference.from",
-           .slot = [](Drive& d) { return member_slot<Which>(d, &TrapezoidSignal::from); },
-           .dimension = &always<angle>,
-           .meaning = "start of the move"},
-          {.path = "reference.to",
-           .slot = [](Drive& d) { return member_slot<Which>(d, &TrapezoidSignal::to); },
-           .dimension = &always<angle>,
-           .meaning = "end of the move",
-           .is_required = true},
-          {.path = "reference.speed",
-           .slot = [](Drive& d) { return member_slot<Which>(d, &TrapezoidSignal::speed); },
-           .dimension = &always<angular_speed>,
-           .meaning = "highest speed of the move",
-           .permitted = Permitted::positive,
-           .is_required = true},
-          {.path = "reference.acceleration",
-           .slot = [](Drive& d) { return member_slot<Which>(d, &TrapezoidSignal::acceleration); },
-           .dimension = &always<angular_acceleration>,
-           .meaning = "highest acceleration of the move",
-           .permitted = Permitted::positive,
-           .is_required = true}};
+  return {
+      entry("reference.value", in_reference<&RampSignal::value>, "value before the ramp",
+            unit<angle>),
+      entry("reference.rate", in_reference<&RampSignal::rate>, "speed of the ramp",
+            unit<angular_speed>, required),
+      entry("reference.from", in_reference<&TrapezoidSignal::from>, "start of the move",
+            unit<angle>),
+      entry("reference.to", in_reference<&TrapezoidSignal::to>, "end of the move", unit<angle>,
+            required),
+      entry("reference.speed", in_reference<&TrapezoidSignal::speed>, "highest speed of the move",
+            unit<angular_speed>, positive, required),
+      entry("reference.acceleration", in_reference<&TrapezoidSignal::acceleration>,
+            "highest acceleration of the move", unit<angular_acceleration>, positive, required)};
 }
 
 }  // namespace
 
 std::vector<Parameter> signal_parameters() {
-  constexpr Paths reference = {"reference.kind",      "reference.value", "reference.before",
-                               "reference.after",     "reference.mean",  "reference.amplitude",
-                               "reference.frequency", "reference.phase", "reference.time",
-                               "reference.file",      "reference.times", "reference.values"};
-  constexpr Paths load_torque = {
-      "load_torque.kind", "load_torque.value",     "load_torque.before",    "load_torque.after",
-      "load_torque.mean", "load_torque.amplitude", "load_torque.frequency", "load_torque.phase",
-      "load_torque.time", "load_torque.file",      "load_torque.times",     "load_torque.values"};
-  std::vector<Parameter> list;
-  const auto add = [&](std::vector<Parameter> parameters) {
-    for (Parameter& parameter : parameters) list.push_back(std::move(parameter));
-  };
-  add(shared_parameters<ReferenceSignal>(
-      reference, {"constant", "step", "ramp", "sine", "trapezoid", "table"}));
-  add(table_parameters<ReferenceSignal>(reference));
-  add(motion_parameters());
-  add(shared_parameters<LoadTorqueSignal>(load_torque, {"constant", "step", "sine", "table"}));
-  add(table_parameters<LoadTorqueSignal>(load_torque));
-  return list;
+  return joined({&reference_kinds, &shared_parameters<&Drive::reference>, &motion_parameters,
+                 &load_torque_kinds, &shared_parameters<&Drive::load_torque>});
 }
 
-}  // namespace gearlash
+}  // namespace gearlash::parameter_rows

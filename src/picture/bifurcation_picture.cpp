@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -34,8 +35,11 @@ Style style_of(Stability stability) {
   return {"", ""};
 }
 
-double value_of(const CycleAt& cycle, Quantity quantity) {
+/// Empty for a quantity that branches do not have.
+std::optional<double> value_of(const CycleAt& cycle, Quantity quantity) {
   switch (quantity) {
+    case Quantity::amplitude:
+      return cycle.amplitude;
     case Quantity::motor_amplitude:
       return cycle.motor_amplitude;
     case Quantity::period:
@@ -45,7 +49,7 @@ double value_of(const CycleAt& cycle, Quantity quantity) {
     case Quantity::multiplier:
       return std::abs(cycle.multiplier);
     default:
-      return cycle.amplitude;
+      return std::nullopt;
   }
 }
 
@@ -62,7 +66,7 @@ struct Scale {
   double foot = 0.0;  ///< lower end of the vertical axis
   double top = 1.0;
 
-  double value(const CycleAt& cycle) const { return value_of(cycle, quantity) / per_value; }
+  double value(const CycleAt& cycle) const { return value_of(cycle, quantity).value() / per_value; }
   double parameter(double si) const { return si / per_parameter; }
   /// Share of the vertical axis.
   double height(double value) const {
@@ -253,18 +257,7 @@ std::string subtitle_of(const BifurcationDiagram& diagram, const Grid& grid) {
 
 }  // namespace
 
-bool has_branches(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::amplitude:
-    case Quantity::motor_amplitude:
-    case Quantity::period:
-    case Quantity::frequency:
-    case Quantity::multiplier:
-      return true;
-    default:
-      return false;
-  }
-}
+bool has_branches(Quantity quantity) { return value_of({.period = 1.0}, quantity).has_value(); }
 
 std::string draw_bifurcations(const BifurcationDiagram& diagram, const Grid& grid,
                               Quantity quantity, const AngleUnit& angle, PictureFormat format) {

@@ -329,6 +329,8 @@ TEST(ServoFileRefusal, OtherFaultsBesideAnUnknownKind) {
   EXPECT_THAT(refusals(replaced(unknown, "\"282 ohm\"", "\"282 V\"")),
               ElementsAre(StartsWith("s.toml:2:8: motor.kind = armature: must be one of "),
                           StartsWith("s.toml:7:14: motor.resistance = 282 V: must be ")));
+  EXPECT_THAT(refusals(replaced(unknown, "resistance", "voltage_limit = \"24 V\"\nresistance")),
+              ElementsAre(StartsWith("s.toml:2:8: motor.kind = armature: must be one of ")));
 }
 
 TEST(ServoFileRefusal, NumbersAtTheLoadSayWhatTheyAreMadeOf) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -18,69 +19,45 @@ namespace {
 
 using drive::ReducedDrive;
 
-/// A parameter in which all numbers of the reduced drive are monotone.
-struct MonotoneParameter {
-  std::string_view path;
-  bool may_be_zero;  ///< the loop keeps its form there
-};
-constexpr MonotoneParameter monotone_parameters[] = {{"servo.damping", true},
-                                                     {"servo.inertia_ratio", false},
-                                                     {"servo.friction_ratio", true},
-                                                     {"servo.backlash", false},
-                                                     {"servo.natural_frequency", false},
-                                                     {"motor.torque_constant", false},
-                                                     {"motor.back_emf_constant", false},
-                                                     {"motor.resistance", false},
-                                                     {"motor.inductance", false},
-                                                     {"motor.torque_per_volt", false},
-                                                     {"motor.torque_per_speed", false},
-                                                     {"motor.inertia", false},
-                                                     {"motor.friction", true},
-                                                     {"motor.coulomb", true},
-                                                     {"motor.breakaway", true},
-                                                     {"motor.no_load_current", true},
-                                                     {"motor.voltage_limit", false},
-                                                     {"motor.torque_limit", false},
-                                                     {"motor.current_limit", false},
-                                                     {"gearbox.ratio", false},
-                                                     {"gearbox.backlash", false},
-                                                     {"gearbox.inertia", true},
-                                                     {"load.inertia", false},
-                                                     {"load.friction", true},
-                                                     {"load.coulomb", true},
-                                                     {"load.breakaway", true},
-                                                     {"load.gravity", true},
-                                                     {"contact.restitution", true},
-                                                     {"contact.stiffness", false},
-                                                     {"sensor.resolution", false},
-                                                     {"sensor.counts_per_turn", false},
-                                                     {"controller.proportional", true},
-                                                     {"controller.integral", false},
-                                                     {"controller.derivative", false},
-                                                     {"controller.filter", false},
-                                                     {"controller.tracking_time", false},
-                                                     {"controller.position", false},
-                                                     {"controller.speed", false},
-                                                     {"controller.speed_integral", false},
-                                                     {"controller.gain", false}};
+// Parameters in which all numbers of the reduced drive are monotone.
 
-/// nullptr where there is none.
-const MonotoneParameter* monotone_parameter(const Drive& drive, const std::string& path) {
-  const Parameter* parameter = find_parameter(path, drive);
-  if (parameter == nullptr) return nullptr;
-  const auto* const found =
-      std::find_if(std::begin(monotone_parameters), std::end(monotone_parameters),
-                   [&](const MonotoneParameter& one) { return one.path == parameter->path; });
-  if (found == std::end(monotone_parameters)) return nullptr;
-  // A computer's filter is not monotone in its time.
-  return found->path == "controller.filter" && drive.sampling ? nullptr : found;
+/// The loop keeps its form at 0.
+constexpr std::string_view monotone_from_zero[] = {
+    "servo.damping",          "servo.friction_ratio",  "motor.friction",  "motor.coulomb",
+    "motor.breakaway",        "motor.no_load_current", "gearbox.inertia", "load.friction",
+    "load.coulomb",           "load.breakaway",        "load.gravity",    "contact.restitution",
+    "controller.proportional"};
+constexpr std::string_view monotone_above_zero[] = {
+    "servo.inertia_ratio",      "servo.backlash",
+    "servo.natural_frequency",  "motor.torque_constant",
+    "motor.back_emf_constant",  "motor.resistance",
+    "motor.inductance",         "motor.torque_per_volt",
+    "motor.torque_per_speed",   "motor.inertia",
+    "motor.voltage_limit",      "motor.torque_limit",
+    "motor.current_limit",      "gearbox.ratio",
+    "gearbox.backlash",         "load.inertia",
+    "contact.stiffness",        "sensor.resolution",
+    "sensor.counts_per_turn",   "controller.integral",
+    "controller.derivative",    "controller.filter",
+    "controller.tracking_time", "controller.position",
+    "controller.speed",         "controller.speed_integral",
+    "controller.gain"};
+
+bool is_in(std::span<const std::string_view> paths, std::string_view path) {
+  return std::find(paths.begin(), paths.end(), path) != paths.end();
 }
 
 /// Why the side cannot be taken; empty if it can.
 std::string obstacle(const Drive& drive, const BoxSide& side) {
-  const MonotoneParameter* found = monotone_parameter(drive, side.path);
-  if (found == nullptr) return "no proof over values of " + side.path + " is known";
-  if (side.values.low < 0.0 || (side.values.low == 0.0 && !found->may_be_zero)) {
+  const Parameter* parameter = find_parameter(side.path, drive);
+  const std::string_view path = parameter == nullptr ? "" : parameter->path;
+  // A computer's filter is not monotone in its time.
+  const bool is_computed_filter = path == "controller.filter" && drive.sampling;
+  const bool may_be_zero = is_in(monotone_from_zero, path);
+  if (is_computed_filter || !(may_be_zero || is_in(monotone_above_zero, path))) {
+    return "no proof over values of " + side.path + " is known";
+  }
+  if (side.values.low < 0.0 || (side.values.low == 0.0 && !may_be_zero)) {
     return "a proof needs values of " + side.path + " above 0";
   }
   return {};
