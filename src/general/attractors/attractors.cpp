@@ -376,27 +376,30 @@ AttractorSearch follow_cycles(const ReducedDrive& drive, const AttractorSearch& 
 
 namespace {
 
-/// Of the outcomes that are alike the middle one, whose start is farthest from those that lead
-/// elsewhere. Of rests the first and the last, which stand farthest apart.
+/// Of the decided outcomes that are alike the first, which is the first to end otherwise where rest
+/// becomes stable, and the middle one, whose start is farthest from those that lead elsewhere. Of
+/// rests the first and the last, which stand farthest apart.
 std::vector<Outcome> representatives(const std::vector<Outcome>& all) {
   std::map<std::pair<MotionEnd, std::size_t>, std::vector<std::size_t>> places;
-  for (std::size_t i = 0; i < all.size(); ++i) places[{all[i].end, all[i].which}].push_back(i);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].end != MotionEnd::undecided) places[{all[i].end, all[i].which}].push_back(i);
+  }
   std::vector<Outcome> some;
   for (const auto& [end, of_end] : places) {
-    if (end.first != MotionEnd::rest) {
-      some.push_back(all[of_end[of_end.size() / 2]]);
-      continue;
-    }
+    const bool is_rest = end.first == MotionEnd::rest;
     some.push_back(all[of_end.front()]);
-    if (of_end.size() > 1) some.push_back(all[of_end.back()]);
+    if (of_end.size() > 1)
+      some.push_back(all[of_end[is_rest ? of_end.size() - 1 : of_end.size() / 2]]);
   }
   return some;
 }
 
-/// How motions end, whichever starts lead there, and to which of the cycles.
+/// How motions end, whichever starts lead there. What an undecided start does matters beside one
+/// that rests, not beside swings alone.
 std::set<MotionEnd> ends_of(const std::vector<Outcome>& outcomes) {
   std::set<MotionEnd> ends;
   for (const Outcome& outcome : outcomes) ends.insert(outcome.end);
+  if (!ends.contains(MotionEnd::rest)) ends.erase(MotionEnd::undecided);
   return ends;
 }
 
@@ -409,9 +412,9 @@ bool is_alike(const FoundCycle& a, const FoundCycle& b) {
 
 std::optional<AttractorSearch> follow_attractors(const ReducedDrive& drive,
                                                  const AttractorSearch& known, Progress& progress) {
-  if (!known.is_complete || known.outcomes.empty() || known.count(MotionEnd::undecided) > 0)
-    return std::nullopt;
   const std::vector<Outcome> wanted = representatives(known.outcomes);
+  const bool is_open = ends_of(known.outcomes).contains(MotionEnd::undecided);
+  if (!known.is_complete || wanted.empty() || is_open) return std::nullopt;
   AttractorOptions options{.nearby = &known, .most_edges = 0};
   for (const Outcome& outcome : wanted) {
     options.starts.push_back(within_gap(outcome.start, drive));

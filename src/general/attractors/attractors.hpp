@@ -181,12 +181,13 @@ AttractorSearch find_attractors(const ReducedDrive& drive, const AttractorOption
 
 /// What a drive ends in that differs slightly from one that was searched. Newton's method finds
 /// each cycle again; its first step from the cycle's old start is the prediction by the cycle's
-/// sensitivity, −(M − 1)⁻¹ ∂F/∂p Δp. Of the starts that led to one thing the middle one is watched,
-/// farthest from those that led elsewhere; of those that led to rest the first and the last. Empty
-/// if one of the cycles is not found again with the same stability, symmetry and number of events,
-/// or these starts do not end alike: in rest, cycles, irregular motion or running away, all that
-/// there were and no other. Something new may have appeared then, and a search must find it. Empty
-/// also where `known` was stopped or has undecided starts. Throws InvalidInput.
+/// sensitivity, −(M − 1)⁻¹ ∂F/∂p Δp. Of the starts that led to one thing the first and the middle
+/// one are watched, the latter farthest from those that led elsewhere; of those that led to rest
+/// the first and the last. Empty if one of the cycles is not found again with the same stability,
+/// symmetry and number of events, or these starts do not end alike: in rest, cycles, irregular
+/// motion or running away, all that there were and no other. Something new may have appeared then,
+/// and a search must find it. Empty also where `known` was stopped, or has undecided starts beside
+/// some that rest. Throws InvalidInput.
 std::optional<AttractorSearch> follow_attractors(const ReducedDrive& drive,
                                                  const AttractorSearch& known,
                                                  Progress& progress = no_progress());

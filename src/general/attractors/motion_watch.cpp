@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/special_numbers.hpp"
+#include "hybrid/guard_form.hpp"
 
 namespace gearlash::drive {
 
@@ -34,14 +35,15 @@ struct Ranges {
 /// Keeps the first value of a number, its turns, both ends of its pauses and its last value.
 class Turns {
  public:
-  Turns(const Watched& watched, std::vector<Sample>& kept) : watched_(watched), kept_(kept) {}
+  Turns(const Watched& watched, std::vector<Sample>& kept)
+      : value_(watched.value), speed_(watched.speed), kept_(kept) {}
 
   void moved(double from, double to, const hybrid::Vector& before, const hybrid::Vector& after) {
-    const double value = watched_.value.at(before);
+    const double value = value_.at(before.data());
     add({from, value});
-    const double speed = watched_.speed.at(before);
-    const double next_speed = watched_.speed.at(after);
-    const double next = watched_.value.at(after);
+    const double speed = speed_.at(before.data());
+    const double next_speed = speed_.at(after.data());
+    const double next = value_.at(after.data());
     if (speed * next_speed < 0.0) add(turn({from, value}, speed, {to, next}, next_speed));
     add({to, next});
   }
@@ -83,7 +85,8 @@ class Turns {
     last_ = sample;
   }
 
-  const Watched& watched_;
+  hybrid::SparseForm value_;
+  hybrid::SparseForm speed_;
   std::vector<Sample>& kept_;
   bool is_first_ = true;
   Sample last_;

@@ -1,7 +1,6 @@
 #include "question/change/feasible_values.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -10,7 +9,6 @@
 #include "base/on_threads.hpp"
 #include "base/progress_part.hpp"
 #include "base/range_check.hpp"
-#include "base/shared_progress.hpp"
 #include "base/special_numbers.hpp"
 #include "closed_form/closed_answer.hpp"
 #include "closed_form/growth_at_rest.hpp"
@@ -47,18 +45,17 @@ std::vector<double> spread_over(const Bounds& range, std::size_t count, bool eve
 class ClosedFormSearch {
  public:
   ClosedFormSearch(const ClosedFormLine& line, const Target& target, Progress& progress)
-      : line_(line), target_(target), shared_(progress, usual_evaluations) {
+      : line_(line),
+        target_(target),
+        judge_([this](double value) { return answer_at(value); }, target, usual_evaluations,
+               progress) {
     if (line.is_backlash() && line.has_bounces() && line.present() > 0.0) {
       at_present_ = line.answer_at(line.present());
     }
-    of_motion_.limits = target.limits;
-    std::erase_if(of_motion_.limits, [](const QuantityLimit& limit) {
-      return info_of(limit.quantity).scope != QuantityScope::motion;
-    });
   }
 
-  std::size_t evaluations() const { return evaluations_; }
-  bool is_stopped() const { return shared_.is_stopped(); }
+  std::size_t evaluations() const { return judge_.evaluations() + boxes_; }
+  bool is_stopped() const { return judge_.is_stopped(); }
 
   bool is_met_at(double value) { return judged(value).is_met; }
 
@@ -81,7 +78,7 @@ class ClosedFormSearch {
       }
       open = std::move(halves);
       constexpr std::size_t most_open = 20'000;
-      if (open.size() <= most_open && shared_.go_on(0.0)) continue;
+      if (open.size() <= most_open && judge_.progress().go_on(0.0)) continue;
       for (const Bounds& values : open) proved.push_back({values, Judgement::some});
       break;
     }
@@ -118,26 +115,16 @@ class ClosedFormSearch {
     return at_present_ ? with_backlash(*at_present_, value) : line_.answer_at(value, target_);
   }
 
-  /// From several threads at a time.
   JudgedValue judged(double value) {
-    if (!shared_.finish(evaluations_ < usual_evaluations ? 1 : 0)) {
-      return {.value = value, .is_known = false, .beyond = Target::infinity};
-    }
-    ++evaluations_;
-    const Answer answer = answer_at(value);
-    return {.value = value,
-            .is_met = is_met(target_, answer),
-            .is_known = !line_.has_bounces() || is_known(target_, answer),
-            .moves = answer.verdict != Verdict::cannot_hunt,
-            .beyond = excess(target_, answer),
-            .moves_beyond = excess(of_motion_, answer)};
+    JudgedValue here = judge_(value);
+    here.is_known = here.is_known || (!line_.has_bounces() && !is_stopped());
+    return here;
   }
 
   /// Values over the whole range, in order, denser near a limit.
   const std::vector<JudgedValue>& tried(const Bounds& range) {
     if (tried_.empty()) {
-      tried_ = tried_values([this](double value) { return judged(value); },
-                            {.first = first_values(range)});
+      tried_ = tried_values([this](double value) { return judged(value); }, first_values(range));
     }
     return tried_;
   }
@@ -151,7 +138,7 @@ class ClosedFormSearch {
     const std::vector<double> looked_at = spread_over(range, fine, evenly);
     std::vector<double> growths(looked_at.size());
     on_threads(0, looked_at.size(), [&](std::size_t i) {
-      if (shared_.go_on(0.0)) growths[i] = line_.growth_at(looked_at[i]);
+      if (judge_.progress().go_on(0.0)) growths[i] = line_.growth_at(looked_at[i]);
     });
     const auto differ = [&](double a, double b) {
       return (a > 1.0) != (b > 1.0) || is_ruled_out(target_, a) != is_ruled_out(target_, b);
@@ -185,7 +172,7 @@ class ClosedFormSearch {
   }
 
   Judgement judge_part(const Bounds& values) {
-    ++evaluations_;
+    ++boxes_;
     return judge(target_, bounds_of(line_.box(values), guessed_flight_time(values)));
   }
 
@@ -210,10 +197,9 @@ class ClosedFormSearch {
   const ClosedFormLine& line_;
   const Target& target_;
   std::optional<Answer> at_present_;  ///< for backlash: amplitudes are proportional to it
-  Target of_motion_;
   std::vector<JudgedValue> tried_;
-  std::atomic<std::size_t> evaluations_ = 0;
-  SharedProgress shared_;
+  AnswerJudge judge_;
+  std::size_t boxes_ = 0;
 };
 
 /// Joins neighbors with the same judgement.
@@ -248,55 +234,6 @@ FeasibleValues closed_form_values(const ClosedFormLine& line, const Bounds& rang
 
 // ---- what is searched within the intervals
 // -------------------------------------------------------
-
-/// Judges the drives along an axis by conditions for which no motion is searched.
-class FigureSearch {
- public:
-  /// `line`: where the conditions are also on motions in closed form.
-  FigureSearch(const Drive& drive, const Axis& axis, const ClosedFormLine* line,
-               const Target& target, Progress& progress)
-      : drive_(drive),
-        axis_(axis),
-        line_(line),
-        target_(target),
-        wanted_(wanted_for(target, drive)),
-        shared_(progress, usual_evaluations) {}
-
-  JudgedValue judged(double value) {
-    if (!shared_.finish(evaluations_ < usual_evaluations ? 1 : 0)) {
-      return {.value = value, .is_known = false, .beyond = Target::infinity};
-    }
-    ++evaluations_;
-    Drive drive = drive_;
-    set_on(axis_, drive, value);
-    if (!faults(drive).empty()) {
-      return {.value = value, .beyond = Target::infinity, .moves_beyond = Target::infinity};
-    }
-    Answer answer = line_ == nullptr ? Answer{} : line_->answer_at(value);
-    add_figures(drive, wanted_, answer, shared_);
-    const double beyond = excess(target_, answer);
-    return {.value = value,
-            .is_met = is_met(target_, answer),
-            .is_known = is_known(target_, answer),
-            .moves = true,
-            .beyond = beyond,
-            .moves_beyond = beyond};
-  }
-
-  std::size_t evaluations() const { return evaluations_; }
-  bool is_stopped() const { return shared_.is_stopped(); }
-
- private:
-  static constexpr std::size_t usual_evaluations = 200;  ///< for the progress alone
-
-  const Drive& drive_;
-  const Axis& axis_;
-  const ClosedFormLine* line_;
-  const Target& target_;
-  Wanted wanted_;
-  std::atomic<std::size_t> evaluations_ = 0;
-  SharedProgress shared_;
-};
 
 /// The values within an interval, with its ends, rising.
 std::vector<double> values_within(const Bounds& interval, const std::vector<double>& values) {
@@ -333,14 +270,24 @@ void name_ends(const std::vector<Bounds>& before, FeasibleValues& found) {
 /// them stays as it is.
 void narrow(const Drive& drive, const Axis& axis, const ClosedFormLine* line, const Target& others,
             const std::vector<double>& values, FeasibleValues& found, Progress& progress) {
-  FigureSearch search(drive, axis, line, others, progress);
-  const auto judge = [&](double value) { return search.judged(value); };
+  constexpr std::size_t usual_evaluations = 200;
+  const Wanted wanted = wanted_for(others, drive);
+  AnswerJudge search(
+      [&](double value) -> std::optional<Answer> {
+        Drive changed = drive;
+        set_on(axis, changed, value);
+        if (!faults(changed).empty()) return std::nullopt;
+        Answer answer = line == nullptr ? Answer{} : line->answer_at(value);
+        add_figures(changed, wanted, answer, search.progress());
+        return answer;
+      },
+      others, usual_evaluations, progress);
+  const auto judge = [&](double value) { return search(value); };
   constexpr Resolution resolution{.smooth = 1e-12, .at_jump = 1e-9};
   const std::vector<Bounds> intervals = std::exchange(found.intervals, {});
   std::vector<JudgedValue> all;
   for (const Bounds& interval : intervals) {
-    const std::vector<JudgedValue> tried =
-        tried_values(judge, {.first = values_within(interval, values)});
+    const std::vector<JudgedValue> tried = tried_values(judge, values_within(interval, values));
     all.insert(all.end(), tried.begin(), tried.end());
     if (tried.size() == 1 && tried[0].is_met) found.intervals.push_back(interval);
     FeasibleValues within;

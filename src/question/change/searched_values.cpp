@@ -1,13 +1,9 @@
 #include "question/change/searched_values.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
-#include <memory>
-#include <mutex>
 #include <utility>
 
 #include "base/on_threads.hpp"
@@ -20,40 +16,89 @@
 namespace gearlash {
 namespace {
 
-/// The drives along a line, as far as they were analysed.
-class AnalysedDrives {
+/// The longest run of values of a grid of which only the ends are certain to be analysed afresh.
+constexpr std::size_t longest_missing_run = 8;
+
+/// The drives along a line, judged by a target.
+class JudgedLine {
  public:
-  /// `count` of them are analysed afresh.
-  AnalysedDrives(const DriveAlong& drive, std::size_t count, const Target& target,
-                 const Wanted& wanted, Progress& progress)
-      : drive_(drive), count_(count), target_(target), wanted_(wanted), progress_(progress) {
-    for (const QuantityLimit& limit : target.limits) {
-      if (info_of(limit.quantity).scope == QuantityScope::motion)
-        of_motion_.limits.push_back(limit);
-    }
+  using Known = AnalysedLine::Known;
+
+  /// Of a grid of `count` values. The ends of intervals take about as many.
+  JudgedLine(const DriveAlong& drive, std::size_t count, const Target& target, const Wanted& wanted,
+             Progress& progress)
+      : line_(drive, wanted, 2 * count, progress), target_(target) {}
+
+  std::size_t evaluations() const { return line_.evaluations(); }
+  bool is_stopped() const { return line_.is_stopped(); }
+
+  JudgedValue afresh(double value) { return judged(value, line_.afresh(value)); }
+  /// From the nearest value that was line.
+  JudgedValue followed(double value) {
+    return judged(value, line_.followed(value, line_.nearest(value)));
   }
 
-  std::size_t evaluations() const { return evaluations_; }
-  bool is_stopped() const { return is_stopped_; }
-
-  JudgedValue afresh(double value) { return judged(value, nullptr); }
+  /// Analyses the ends afresh. Where both miss the target, the values between are followed from one
+  /// to the next, and analysed afresh if they then meet it; else the middle is analysed afresh too,
+  /// and so on.
+  std::vector<JudgedValue> on_grid(const std::vector<double>& grid) {
+    std::vector<JudgedValue> all(grid.size());
+    std::vector<Known> analyses(grid.size());
+    std::vector<std::size_t> next = {0};
+    if (grid.size() > 1) next.push_back(grid.size() - 1);
+    std::vector<Run> open = {{0, grid.size() - 1}};
+    std::vector<Run> missing;
+    while (!next.empty()) {
+      on_threads(0, next.size(), [&](std::size_t i) {
+        const std::size_t place = next[i];
+        analyses[place] = line_.afresh(grid[place]);
+        all[place] = judged(grid[place], analyses[place]);
+      });
+      next.clear();
+      std::vector<Run> halves;
+      for (const auto& [low, high] : open) {
+        if (high - low < 2) continue;
+        const bool both_miss = misses(all[low]) && misses(all[high]);
+        if (both_miss && high - low <= longest_missing_run) {
+          missing.push_back({low, high});
+          continue;
+        }
+        const std::size_t middle = low + (high - low) / 2;
+        next.push_back(middle);
+        halves.push_back({low, middle});
+        halves.push_back({middle, high});
+      }
+      open = std::move(halves);
+    }
+    on_threads(0, missing.size(), [&](std::size_t i) {
+      const auto [low, high] = missing[i];
+      Known near = analyses[low];
+      for (std::size_t place = low + 1; place < high; ++place) {
+        const Known here = line_.followed(grid[place], near);
+        all[place] = judged(grid[place], here);
+        const bool is_followed = here && here->is_followed;
+        if (is_followed && !misses(all[place])) all[place] = afresh(grid[place]);
+        if (here) near = here;
+      }
+    });
+    return all;
+  }
 
   /// What happens between the end of an interval, upwards or downwards, and the values beyond that
   /// were analysed, as far as `far`, from the nearest on: next to a fold motion lingers, and the
   /// nearest may not have closed the cycle. Empty if there is none, or it meets the target.
   std::optional<Border> border_at(double end, bool upwards, double far) {
     std::optional<Border> first;
-    Hearing hearing(*this);
-    const auto at_end = known_.find(end);
-    if (at_end == known_.end()) return first;
+    const std::map<double, Known>& known = line_.known();
+    const auto at_end = known.find(end);
+    if (at_end == known.end()) return first;
     auto beyond = at_end;
-    while (upwards ? std::next(beyond) != known_.end() : beyond != known_.begin()) {
+    while (upwards ? std::next(beyond) != known.end() : beyond != known.begin()) {
       beyond = upwards ? std::next(beyond) : std::prev(beyond);
-      const Judged& there = beyond->second;
       const bool is_near = upwards ? beyond->first <= far : beyond->first >= far;
-      if (!is_near || !there.is_known || there.is_met) break;
-      const Border border = border_between(drive_, {end, *at_end->second.analysis},
-                                           {beyond->first, *there.analysis}, far, hearing);
+      if (!is_near || !misses(judged(beyond->first, beyond->second))) break;
+      const Border border = border_between(line_.drive(), {end, *at_end->second},
+                                           {beyond->first, *beyond->second}, far, line_.progress());
       if (!first) first = border;
       if (border.kind == BorderKind::unnamed || border.kind == BorderKind::rest) continue;
       return border;
@@ -61,81 +106,21 @@ class AnalysedDrives {
     return first;
   }
 
-  /// From the nearest value that was analysed.
-  JudgedValue followed(double value) { return judged(value, nearest(value)); }
-
  private:
-  using Known = std::shared_ptr<const Analysis>;
-  struct Judged {
-    Known analysis;
-    bool is_met = false;
-    bool is_known = false;
+  struct Run {
+    std::size_t low;
+    std::size_t high;
   };
 
-  JudgedValue judged(double value, const Known& near) {
-    const Drive drive = drive_(value);
-    if (!faults(drive).empty()) {
-      return {.value = value, .beyond = Target::infinity, .moves_beyond = Target::infinity};
-    }
-    const JudgedValue unknown{.value = value, .is_known = false, .beyond = Target::infinity};
-    if (is_stopped_) return unknown;
-    Hearing hearing(*this);
-    const auto analysis =
-        std::make_shared<const Analysis>(near ? analyse_near(drive, *near, wanted_, hearing)
-                                              : analyse_in_full(drive, wanted_, hearing));
-    ++evaluations_;
-    const Answer& answer = analysis->answer;
-    if (answer.search && !answer.search->is_complete) return unknown;
-    const Judged judged{analysis, is_met(target_, answer), is_known(target_, answer)};
-    {
-      const std::scoped_lock lock(keeping_);
-      known_[value] = judged;
-    }
-    return {.value = value,
-            .is_met = judged.is_met,
-            .is_known = judged.is_known,
-            .moves = answer.value(Quantity::amplitude).value_or(0.0) > 0.0,
-            .beyond = excess(target_, answer),
-            .moves_beyond = excess(of_motion_, answer)};
+  static bool misses(const JudgedValue& one) { return one.is_known && !one.is_met; }
+
+  JudgedValue judged(double value, const Known& analysis) const {
+    if (analysis) return gearlash::judged(value, target_, analysis->answer);
+    return faults(line_.drive()(value)).empty() ? judged_unknown(value) : judged_unsound(value);
   }
 
-  Known nearest(double value) {
-    const std::scoped_lock lock(keeping_);
-    const auto above = known_.lower_bound(value);
-    if (above == known_.end()) return known_.empty() ? nullptr : std::prev(above)->second.analysis;
-    if (above == known_.begin()) return above->second.analysis;
-    const auto below = std::prev(above);
-    return (value - below->first < above->first - value ? below : above)->second.analysis;
-  }
-
-  /// Asks whether to go on, from several threads. The ends of intervals take about as many values
-  /// as the grid has.
-  class Hearing : public Progress {
-   public:
-    explicit Hearing(AnalysedDrives& of) : of_(of) {}
-    bool go_on(double share, std::size_t bytes = 0) override {
-      const std::scoped_lock lock(of_.hearing_);
-      const double done = static_cast<double>(of_.evaluations_) + share;
-      const double left = std::max(1.0, 2.0 * static_cast<double>(of_.count_) - done);
-      if (!of_.progress_.go_on(done / (done + left), bytes)) of_.is_stopped_ = true;
-      return !of_.is_stopped_;
-    }
-
-   private:
-    AnalysedDrives& of_;
-  };
-
-  const DriveAlong& drive_;
-  std::size_t count_;
+  AnalysedLine line_;
   const Target& target_;
-  const Wanted wanted_;
-  Target of_motion_;
-  Progress& progress_;
-  std::map<double, Judged> known_;
-  std::mutex keeping_;
-  std::mutex hearing_;
-  std::atomic<std::size_t> evaluations_ = 0;
-  std::atomic<bool> is_stopped_ = false;
 };
 
 /// More is not worth a second or two for each value that is tried.
@@ -144,10 +129,9 @@ Resolution resolution_over(const Bounds& range) {
   return {.smooth = 1e-9, .at_jump = at_jump, .least = 1e-3 * at_jump * (range.high - range.low)};
 }
 
-std::vector<JudgedValue> of_words(AnalysedDrives& analysed, FeasibleValues& found) {
-  const auto afresh = [&](double value) { return analysed.afresh(value); };
+std::vector<JudgedValue> of_words(JudgedLine& line, FeasibleValues& found) {
   std::vector<JudgedValue> tried =
-      tried_values(afresh, {.first = found.grid, .most_halvings = 0, .halvings_everywhere = 0});
+      judged_values([&](double value) { return line.afresh(value); }, found.grid);
   for (const JudgedValue& one : tried) {
     if (one.is_met) found.intervals.push_back({one.value, one.value});
     if (!one.is_known) found.undecided.push_back({one.value, one.value});
@@ -164,7 +148,7 @@ struct IntervalEnd {
 
 /// What happens at each end of an interval within the range. Cycles are followed as far as the next
 /// value of the grid.
-std::vector<IntervalEnd> ends_with_borders(AnalysedDrives& analysed, const FeasibleValues& found) {
+std::vector<IntervalEnd> ends_with_borders(JudgedLine& line, const FeasibleValues& found) {
   std::vector<IntervalEnd> ends;
   for (std::size_t i = 0; i < found.intervals.size(); ++i) {
     if (found.intervals[i].low > found.searched.low) ends.push_back({i, false});
@@ -177,16 +161,16 @@ std::vector<IntervalEnd> ends_with_borders(AnalysedDrives& analysed, const Feasi
     const double value = end.is_upper ? interval.high : interval.low;
     const double far = end.is_upper ? *std::upper_bound(grid.begin(), grid.end(), value)
                                     : *std::prev(std::lower_bound(grid.begin(), grid.end(), value));
-    end.border = analysed.border_at(value, end.is_upper, far);
+    end.border = line.border_at(value, end.is_upper, far);
   });
   return ends;
 }
 
 /// Names the ends of intervals. A cycle that misses the target may go on into an interval, where no
 /// start led to it: the interval begins where it ends. Of one that it fills nothing is known.
-void name_borders(AnalysedDrives& analysed, FeasibleValues& found) {
-  if (analysed.is_stopped()) return;
-  std::vector<IntervalEnd> ends = ends_with_borders(analysed, found);
+void name_borders(JudgedLine& line, FeasibleValues& found) {
+  if (line.is_stopped()) return;
+  std::vector<IntervalEnd> ends = ends_with_borders(line, found);
   std::vector<bool> is_filled(found.intervals.size(), false);
   for (IntervalEnd& end : ends) {
     if (!end.border) continue;
@@ -197,7 +181,7 @@ void name_borders(AnalysedDrives& analysed, FeasibleValues& found) {
     if (!goes_on) continue;
     const double aside = 2.0 * border.located * std::abs(border.at);
     const double within = border.at + (end.is_upper ? -aside : aside);
-    if (interval.contains(within) && analysed.afresh(within).is_met) {
+    if (interval.contains(within) && line.afresh(within).is_met) {
       border.end = edge = within;
     } else {
       is_filled[end.interval] = true;
@@ -230,13 +214,13 @@ LastMet where_verdicts_repeat(const Judge& afresh, double met, LastMet last,
   return last;
 }
 
-std::vector<JudgedValue> of_numbers(AnalysedDrives& analysed, FeasibleValues& found) {
+std::vector<JudgedValue> of_numbers(JudgedLine& line, FeasibleValues& found) {
   const Resolution resolution = resolution_over(found.searched);
-  const auto afresh = [&](double value) { return analysed.afresh(value); };
-  const auto followed = [&](double value) { return analysed.followed(value); };
+  const auto afresh = [&](double value) { return line.afresh(value); };
+  const auto followed = [&](double value) { return line.followed(value); };
   constexpr int most_halvings = 2;
-  std::vector<JudgedValue> tried = tried_values(
-      afresh, {.first = found.grid, .most_halvings = most_halvings, .halvings_everywhere = 0});
+  std::vector<JudgedValue> tried = tried_between(
+      line.on_grid(found.grid), afresh, {.most_halvings = most_halvings, .halvings_everywhere = 0});
   found.located = resolution.at_jump;
   if (tried.size() == 1 && tried[0].is_met) found.intervals = {found.searched};
   const auto is_met_at = [&](double value) {
@@ -255,7 +239,7 @@ std::vector<JudgedValue> of_numbers(AnalysedDrives& analysed, FeasibleValues& fo
         return where_verdicts_repeat(afresh, met, last, resolution);
       },
       found);
-  name_borders(analysed, found);
+  name_borders(line, found);
   return tried;
 }
 
@@ -264,11 +248,11 @@ template <class Search>
 void fill(FeasibleValues& found, const DriveAlong& drive, const Target& target,
           const Wanted& wanted, Progress& progress, const Search& search) {
   found.kind = SearchKind::searched;
-  AnalysedDrives analysed(drive, found.grid.size(), target, wanted, progress);
-  const std::vector<JudgedValue> tried = search(analysed, found);
+  JudgedLine line(drive, found.grid.size(), target, wanted, progress);
+  const std::vector<JudgedValue> tried = search(line, found);
   if (found.intervals.empty()) found.closest = closest_of(tried);
-  found.evaluations = analysed.evaluations();
-  found.stopped = analysed.is_stopped();
+  found.evaluations = line.evaluations();
+  found.stopped = line.is_stopped();
 }
 
 }  // namespace

@@ -84,8 +84,7 @@ struct JudgedLoop {
 /// The units of a series with tuned values.
 class Units {
  public:
-  Units(const TuneTask& task, const TuneEffort& effort)
-      : task_(task), axes_(axes_of(task.series)) {
+  Units(const TuneTask& task, const TuneEffort& effort) : task_(task), axes_(axes_of(task.series)) {
     add(means_of(task.series));
     const std::size_t width = task.series.varied.size();
     if (width == 0) return;

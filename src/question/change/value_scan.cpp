@@ -9,21 +9,16 @@
 
 #include "base/bracketed_root.hpp"
 #include "base/on_threads.hpp"
+#include "question/analyse.hpp"
 
 namespace gearlash {
 namespace {
 
 constexpr double least = 1e-300;
 
-std::vector<JudgedValue> judged(const Judge& judge, const std::vector<double>& values) {
-  std::vector<JudgedValue> all(values.size());
-  on_threads(0, values.size(), [&](std::size_t i) { all[i] = judge(values[i]); });
-  return all;
-}
-
 /// The middles of the intervals that tried_values() halves.
 std::vector<double> middles_to_try(const std::vector<JudgedValue>& tried, bool everywhere) {
-  const auto beyond = [&](std::size_t i) { return tried[i].moves_beyond; };
+  const auto beyond = [&](std::size_t i) { return tried[i].beyond_limits; };
   const auto change = [&](std::size_t i) {
     return i + 1 < tried.size() ? std::abs(beyond(i + 1) - beyond(i)) : 0.0;
   };
@@ -57,17 +52,52 @@ void add(std::vector<Bounds>& intervals, double low, double high) {
 
 }  // namespace
 
+JudgedValue judged(double value, const Target& target, const Answer& answer) {
+  return {.value = value,
+          .is_met = is_met(target, answer),
+          .is_known = is_known(target, answer),
+          .moves = !is_at_rest(answer.verdict),
+          .beyond = excess(target, answer),
+          .beyond_limits = excess({.limits = target.limits}, answer)};
+}
+
+JudgedValue judged_unsound(double value) {
+  return {.value = value, .beyond = Target::infinity, .beyond_limits = Target::infinity};
+}
+
+JudgedValue judged_unknown(double value) {
+  return {.value = value, .is_known = false, .beyond = Target::infinity};
+}
+
+AnswerJudge::AnswerJudge(AnswerAt answer_at, const Target& target, std::size_t usual,
+                         Progress& progress)
+    : answer_at_(std::move(answer_at)), target_(target), usual_(usual), shared_(progress, usual) {}
+
+JudgedValue AnswerJudge::operator()(double value) {
+  if (!shared_.finish(evaluations_ < usual_ ? 1 : 0)) return judged_unknown(value);
+  ++evaluations_;
+  const std::optional<Answer> answer = answer_at_(value);
+  return answer ? judged(value, target_, *answer) : judged_unsound(value);
+}
+
 double middle_value(double low, double high) {
   return low == 0.0 && high < least ? 0.5 * high : detail::middle_of(low, high);
 }
 
-std::vector<JudgedValue> tried_values(const Judge& judge, const ScanPlan& plan) {
-  std::vector<JudgedValue> tried = judged(judge, plan.first);
+std::vector<JudgedValue> judged_values(const Judge& judge, const std::vector<double>& values) {
+  std::vector<JudgedValue> all(values.size());
+  on_threads(0, values.size(), [&](std::size_t i) { all[i] = judge(values[i]); });
+  return all;
+}
+
+std::vector<JudgedValue> tried_between(std::vector<JudgedValue> tried, const Judge& judge,
+                                       const ScanPlan& plan) {
   for (int i = 0; i < plan.most_halvings; ++i) {
     const bool met_unknown =
         std::any_of(tried.begin(), tried.end(), [](const auto& one) { return !one.is_known; });
     const bool everywhere = met_unknown && i < plan.halvings_everywhere;
-    const std::vector<JudgedValue> between = judged(judge, middles_to_try(tried, everywhere));
+    const std::vector<JudgedValue> between =
+        judged_values(judge, middles_to_try(tried, everywhere));
     if (between.empty()) break;
     tried.insert(tried.end(), between.begin(), between.end());
     std::sort(tried.begin(), tried.end(),

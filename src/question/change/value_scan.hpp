@@ -1,10 +1,13 @@
 // Tries values of one parameter, denser near a limit, and closes in on where a target ends.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
+#include "base/shared_progress.hpp"
 #include "question/change/target.hpp"
 
 namespace gearlash {
@@ -14,13 +17,41 @@ struct JudgedValue {
   double value = 0.0;
   bool is_met = false;
   bool is_known = true;
-  bool moves = false;         ///< it does not always come to rest
-  double beyond = 0.0;        ///< excess()
-  double moves_beyond = 0.0;  ///< excess() of the limits of its motion alone
+  bool moves = false;          ///< it does not always come to rest
+  double beyond = 0.0;         ///< excess()
+  double beyond_limits = 0.0;  ///< excess() of the limits alone
 };
+JudgedValue judged(double value, const Target& target, const Answer& answer);
+/// Of a drive that is unsound.
+JudgedValue judged_unsound(double value);
+/// Where the work was stopped.
+JudgedValue judged_unknown(double value);
 
 /// Judges a value; from several threads at a time if values are tried side by side.
 using Judge = std::function<JudgedValue(double value)>;
+
+/// Judges drives by their answers, from several threads at a time.
+class AnswerJudge {
+ public:
+  /// Empty for an unsound drive.
+  using AnswerAt = std::function<std::optional<Answer>(double value)>;
+
+  /// `usual`: the number of answers that are expected, for the progress alone. The target must
+  /// outlive it.
+  AnswerJudge(AnswerAt answer_at, const Target& target, std::size_t usual, Progress& progress);
+
+  JudgedValue operator()(double value);
+  std::size_t evaluations() const { return evaluations_; }
+  bool is_stopped() const { return shared_.is_stopped(); }
+  SharedProgress& progress() { return shared_; }
+
+ private:
+  AnswerAt answer_at_;
+  const Target& target_;
+  std::size_t usual_;
+  std::atomic<std::size_t> evaluations_ = 0;
+  SharedProgress shared_;
+};
 
 /// A part of the range and its judgement.
 struct Part {
@@ -31,16 +62,23 @@ struct Part {
 };
 
 struct ScanPlan {
-  std::vector<double> first;    ///< rising
   int most_halvings = 6;        ///< of an interval near a limit
   int halvings_everywhere = 2;  ///< of each interval in which something moves, where motion is
                                 ///< unknown somewhere: it may be irregular, with windows in it
 };
 
-/// All values tried, in order. Intervals are halved whose ends lie on one side of a limit of the
-/// motion, and no farther from it than the motion changes there or in an adjacent interval, and
-/// those next to unknown motion.
-std::vector<JudgedValue> tried_values(const Judge& judge, const ScanPlan& plan);
+/// Values side by side.
+std::vector<JudgedValue> judged_values(const Judge& judge, const std::vector<double>& values);
+
+/// `tried`, which rise, and the values tried between them, in order. Intervals are halved whose
+/// ends lie on one side of a limit, and no farther from it than the motion changes there or in an
+/// adjacent interval, and those next to unknown motion.
+std::vector<JudgedValue> tried_between(std::vector<JudgedValue> tried, const Judge& judge,
+                                       const ScanPlan& plan = {});
+/// The same from values that rise.
+inline std::vector<JudgedValue> tried_values(const Judge& judge, const std::vector<double>& first) {
+  return tried_between(judged_values(judge, first), judge);
+}
 
 /// The parts between the values. The ends of each decide its judgement.
 std::vector<Part> parts_between(const std::vector<JudgedValue>& tried);

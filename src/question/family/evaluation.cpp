@@ -10,7 +10,6 @@
 #include "base/shared_progress.hpp"
 #include "base/special_numbers.hpp"
 #include "model/reduced_drive.hpp"
-#include "question/family/followed_drives.hpp"
 #include "question/final_servo.hpp"
 
 namespace gearlash {
@@ -140,7 +139,7 @@ struct OwnColumns {
 class FamilyPart {
  public:
   FamilyPart(const Family& family, const AskedOfRows& asked, std::size_t first, std::size_t count,
-       std::size_t longest_run)
+             std::size_t longest_run)
       : family_(family),
         asked_(asked),
         first_(first),
@@ -321,7 +320,7 @@ std::vector<std::size_t> parts_of(const FamilyRows& rows, bool searches, std::si
   for (std::size_t begin = 0; begin < rows.count;) {
     begins.push_back(begin);
     const std::size_t place = (rows.into_line + begin) % rows.line;
-    begin += searches ? std::min(longest_run, rows.line - place) : at_a_time;
+    begin += searches ? std::min(rows.run, rows.line - place) : at_a_time;
   }
   begins.push_back(rows.count);
   return begins;
@@ -395,7 +394,7 @@ RowCount evaluate(const Family& family, const FamilyRows& rows, const AskedOfRow
   const auto work = [&](std::size_t index) {
     if (shared.is_stopped()) return;
     const std::size_t count = begins[index + 1] - begins[index];
-    FamilyPart part(family, asked, begins[index], count, asked.one_by_one ? 1 : longest_run);
+    FamilyPart part(family, asked, begins[index], count, rows.run);
     const RowCount of_part = part.work_out(rows, workers.unit, shared);
     {
       const std::scoped_lock lock(adding);

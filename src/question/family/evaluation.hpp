@@ -9,6 +9,7 @@
 #include "closed_form/lanes/cycle_batch.hpp"
 #include "question/analyse.hpp"
 #include "question/family/family.hpp"
+#include "question/family/followed_drives.hpp"
 
 namespace gearlash {
 
@@ -39,9 +40,10 @@ struct FamilyRows {
   /// Writes the values of the drives from `first` on, one drive after another, until `values` is
   /// full. Called from several threads at a time.
   std::function<void(std::size_t first, std::span<double> values)> fill{};
-  /// Drives beside each other on a line of so many may be followed where they are searched. Row 0
-  /// lies `into_line` drives into its line.
+  /// Drives beside each other on a line of so many may be followed where they are searched, in runs
+  /// of so many. Row 0 lies `into_line` drives into its line.
   std::size_t line = 1;
+  std::size_t run = longest_run;
   std::size_t into_line = 0;
 };
 
@@ -62,7 +64,7 @@ struct AskedOfRows {
   Wanted wanted{.proofs = false, .borders = false};
   /// Verdicts in closed form that are not proved become undecided.
   bool proved = false;
-  /// Every drive is analysed by itself, afresh. Else answers in closed form that are taken have the
+  /// Every drive is analysed by itself. Else answers in closed form that are taken have the
   /// verdict, the growth at rest, and the amplitude and the period of one motion.
   bool one_by_one = false;
 };

@@ -34,38 +34,21 @@ struct ChangeOnAxis {
   bool is_above = false;  ///< whether the property holds above the place
 };
 
-class Answers {
- public:
-  Answers(const Drive& drive, const Axis& axis) : drive_(drive), axis_(axis) {}
-
-  std::optional<Analysis> at(double value, Progress& progress) const {
-    Drive here = drive_;
-    set_on(axis_, here, value);
-    if (!faults(here).empty()) return std::nullopt;
-    Analysis analysis = analyse_in_full(here, {.proofs = false}, progress);
-    if (analysis.search && !analysis.search->is_complete) return std::nullopt;
-    return analysis;
+std::optional<ChangeOnAxis> change_between(AnalysedLine& line, const Axis& axis, std::size_t low,
+                                           bool holds_low, bool holds_high,
+                                           const std::function<bool(const Analysis&)>& holds,
+                                           bool is_closed) {
+  if (holds_low == holds_high) return std::nullopt;
+  double from = position_on(axis, axis.values[low]);
+  double to = position_on(axis, axis.values[low + 1]);
+  for (int i = 0; i < (is_closed ? 40 : 6); ++i) {
+    const double middle = 0.5 * (from + to);
+    const AnalysedLine::Known there = line.afresh(value_at(axis, middle));
+    if (!there) break;
+    (holds(*there) == holds_low ? from : to) = middle;
   }
-
-  std::optional<ChangeOnAxis> change_between(std::size_t low, bool holds_low, bool holds_high,
-                                             const std::function<bool(const Analysis&)>& holds,
-                                             bool is_closed, Progress& progress) const {
-    if (holds_low == holds_high) return std::nullopt;
-    double from = position_on(axis_, axis_.values[low]);
-    double to = position_on(axis_, axis_.values[low + 1]);
-    for (int i = 0; i < (is_closed ? 40 : 6); ++i) {
-      const double middle = 0.5 * (from + to);
-      const std::optional<Analysis> there = at(value_at(axis_, middle), progress);
-      if (!there) break;
-      (holds(*there) == holds_low ? from : to) = middle;
-    }
-    return ChangeOnAxis{value_at(axis_, 0.5 * (from + to)), holds_high};
-  }
-
- private:
-  const Drive& drive_;
-  const Axis& axis_;
-};
+  return ChangeOnAxis{value_at(axis, 0.5 * (from + to)), holds_high};
+}
 
 // ---- chains of cycles ---------------------------------------------------------------------------
 
@@ -125,7 +108,7 @@ struct BranchTip {
 
 class Chains {
  public:
-  Chains(const Drive& drive, const Axis& axis, const std::vector<std::optional<Analysis>>& values,
+  Chains(const Drive& drive, const Axis& axis, const std::vector<AnalysedLine::Known>& values,
          SharedProgress& progress)
       : axis_(axis),
         drive_(drives_along(axis, drive)),
@@ -447,10 +430,9 @@ void extend_to_rest(double parameter, bool rests_above, double half_gap,
 
 // ---- the whole ----------------------------------------------------------------------------------
 
-void add_rest_and_runaway(const Drive& drive, const Axis& axis,
-                          const std::vector<std::optional<Analysis>>& values,
-                          SharedProgress& progress, BifurcationDiagram& diagram) {
-  const Answers all(drive, axis);
+void add_rest_and_runaway(AnalysedLine& line, const Axis& axis,
+                          const std::vector<AnalysedLine::Known>& values,
+                          BifurcationDiagram& diagram) {
   std::optional<double> rests_from;
   double last = axis.values.front();
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -460,11 +442,11 @@ void add_rest_and_runaway(const Drive& drive, const Axis& axis,
       continue;
     }
     const bool rests = comes_to_rest(*values[i]);
-    if (i > 0 && values[i - 1] && !progress.is_stopped()) {
+    if (i > 0 && values[i - 1] && !line.is_stopped()) {
       const Analysis& below = *values[i - 1];
       const bool is_closed = below.closed && values[i]->closed;
-      if (const auto change = all.change_between(i - 1, comes_to_rest(below), rests, comes_to_rest,
-                                                 is_closed, progress)) {
+      if (const auto change = change_between(line, axis, i - 1, comes_to_rest(below), rests,
+                                             comes_to_rest, is_closed)) {
         if (change->is_above) rests_from = change->parameter;
         if (!change->is_above) diagram.rests.push_back({*rests_from, change->parameter});
         if (!change->is_above) rests_from.reset();
@@ -476,9 +458,8 @@ void add_rest_and_runaway(const Drive& drive, const Axis& axis,
                          diagram);
         }
       }
-      if (const auto change =
-              all.change_between(i - 1, may_run_away(below), may_run_away(*values[i]), may_run_away,
-                                 is_closed, progress)) {
+      if (const auto change = change_between(line, axis, i - 1, may_run_away(below),
+                                             may_run_away(*values[i]), may_run_away, is_closed)) {
         diagram.borders.push_back(
             {.parameter = change->parameter, .word = "border of running away", .cycle = {}});
       }
@@ -494,10 +475,10 @@ void add_rest_and_runaway(const Drive& drive, const Axis& axis,
 BifurcationDiagram bifurcations_of(const Drive& drive, const Axis& axis, Progress& progress) {
   const std::size_t count = axis.values.size();
   SharedProgress shared(progress, 3 * count);
-  std::vector<std::optional<Analysis>> values(count);
-  const Answers all(drive, axis);
+  AnalysedLine line(drives_along(axis, drive), {.proofs = false}, count, shared);
+  std::vector<AnalysedLine::Known> values(count);
   on_threads(0, count, [&](std::size_t i) {
-    if (!shared.is_stopped()) values[i] = all.at(axis.values[i], shared);
+    if (!shared.is_stopped()) values[i] = line.afresh(axis.values[i]);
     shared.finish(2);
   });
   BifurcationDiagram diagram;
@@ -518,7 +499,7 @@ BifurcationDiagram bifurcations_of(const Drive& drive, const Axis& axis, Progres
     const bool is_closed = values[i] && values[i]->closed;
     closed.add(is_closed ? values[i]->answer.cycles : std::vector<Cycle>{}, axis.values[i]);
   }
-  add_rest_and_runaway(drive, axis, values, shared, diagram);
+  add_rest_and_runaway(line, axis, values, diagram);
   diagram.is_complete = !shared.is_stopped();
   return diagram;
 }

@@ -65,14 +65,6 @@ Border followed_end_of_cycle(const DriveAlong& drive, const drive::FoundCycle& c
 
 }  // namespace
 
-DriveAlong drives_along(const Axis& axis, const Drive& drive) {
-  return [&axis, drive](double value) {
-    Drive changed = drive;
-    set_on(axis, changed, value);
-    return changed;
-  };
-}
-
 Border end_of_cycle(const DriveAlong& drive, const drive::FoundCycle& cycle, double from, double to,
                     Progress& progress) {
   constexpr std::size_t most_events = 400;  // more take minutes to follow

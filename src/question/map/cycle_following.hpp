@@ -1,13 +1,12 @@
 // Follows a cycle of a searched drive from one value of a parameter to another.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
 #include "gearlash/design.hpp"
 #include "general/attractors/attractors.hpp"
-#include "question/axis.hpp"
+#include "question/family/analysed_line.hpp"
 
 namespace gearlash {
 
@@ -43,11 +42,6 @@ class CycleFollowing {
   const Axis& axis_;
   Progress& progress_;
 };
-
-/// The drives along a line, one for each number; called from several threads at a time.
-using DriveAlong = std::function<Drive(double)>;
-/// Copies of the drive with values of the axis. The axis must outlive them.
-DriveAlong drives_along(const Axis& axis, const Drive& drive);
 
 /// Where a cycle that exists at `from` ends or changes its stability, on the way to `to`, by
 /// continue_orbit(): to 1e-9 of the value, to 1e-4 where it grazes. Unnamed if it does neither, if

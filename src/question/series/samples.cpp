@@ -1,6 +1,9 @@
 #include "question/series/samples.hpp"
 
 #include <algorithm>
+#include <numeric>
+
+#include "base/progress_part.hpp"
 
 namespace gearlash::detail {
 namespace {
@@ -10,6 +13,30 @@ double amplitude_in(const Answer& answer, Quantity amplitude) {
     return infinity;
   }
   return answer.value(amplitude).value_or(not_a_number);
+}
+
+/// An order in which each drive differs little from the one before: the nearest that is left, with
+/// each parameter in units of its range.
+std::vector<std::size_t> chain_of(std::span<const double> values, std::size_t count,
+                                  const std::vector<double>& widths) {
+  const std::size_t width = widths.size();
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto distance = [&](std::size_t one, std::size_t other) {
+    double square = 0.0;
+    for (std::size_t i = 0; i < width; ++i) {
+      const double apart = values[one * width + i] - values[other * width + i];
+      if (widths[i] > 0.0) square += (apart / widths[i]) * (apart / widths[i]);
+    }
+    return square;
+  };
+  for (auto last = order.begin(); order.end() - last > 2; ++last) {
+    const auto nearest = std::min_element(last + 1, order.end(), [&](std::size_t a, std::size_t b) {
+      return distance(*last, a) < distance(*last, b);
+    });
+    std::iter_swap(last + 1, nearest);
+  }
+  return order;
 }
 
 }  // namespace
@@ -54,7 +81,9 @@ SampleAnswers::SampleAnswers(const TolerancedDrive& drive, const Target& target,
       workers_(workers),
       family_(family_of(drive)),
       one_by_one_(family_.engines().search || !is_of_boxes(target) ||
-                  amplitude != Quantity::amplitude) {}
+                  amplitude != Quantity::amplitude) {
+  for (const Axis& axis : axes_of(drive)) widths_.push_back(axis.values[1] - axis.values[0]);
+}
 
 SampleResult SampleAnswers::result_of(const Answer* answer) const {
   if (answer == nullptr) return {.refused = true};
@@ -67,11 +96,42 @@ SampleResult SampleAnswers::result_of(const Answer* answer) const {
 
 bool SampleAnswers::fill(const FamilyRows& rows, std::span<SampleResult> results,
                          Progress& progress) const {
-  AskedOfRows asked{
-      .take = [&](std::size_t row, const Answer* answer) { results[row] = result_of(answer); },
-      .wanted = wanted_for(target_, family_.base()),
-      .one_by_one = one_by_one_};
+  const TakeRow take = [&](std::size_t row, const Answer* answer) {
+    results[row] = result_of(answer);
+  };
+  if (!one_by_one_) return !evaluate(family_, rows, {.take = take}, progress, workers_).stopped;
+  constexpr std::size_t most = 1024;  // of which the order is sought at a time
+  for (std::size_t first = 0; first < rows.count; first += most) {
+    const std::size_t count = std::min(most, rows.count - first);
+    const auto all = static_cast<double>(rows.count);
+    ProgressPart part(progress, static_cast<double>(first) / all,
+                      static_cast<double>(first + count) / all);
+    std::vector<double> values(count * family_.width());
+    rows.fill(first, values);
+    if (!fill_one_by_one(values, results.subspan(first, count), part)) return false;
+  }
+  return true;
+}
+
+bool SampleAnswers::fill_one_by_one(std::span<const double> values, std::span<SampleResult> results,
+                                    Progress& progress) const {
+  constexpr std::size_t run = 8;
+  const std::size_t width = family_.width();
+  const std::vector<std::size_t> order = chain_of(values, results.size(), widths_);
+  AskedOfRows asked{.take = [&](std::size_t row,
+                                const Answer* answer) { results[order[row]] = result_of(answer); },
+                    .wanted = wanted_for(target_, family_.base()),
+                    .one_by_one = true};
   asked.wanted.borders = true;  // of each sample the amplitude counts
+  const FamilyRows rows{.count = results.size(),
+                        .fill =
+                            [&](std::size_t first, std::span<double> part) {
+                              for (std::size_t i = 0; i < part.size(); ++i) {
+                                part[i] = values[order[first + i / width] * width + i % width];
+                              }
+                            },
+                        .line = results.size(),
+                        .run = run};
   return !evaluate(family_, rows, asked, progress, workers_).stopped;
 }
 

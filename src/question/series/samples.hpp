@@ -56,7 +56,9 @@ class SampleAnswers {
   SampleAnswers(const TolerancedDrive& drive, const Target& target, Quantity amplitude,
                 const Workers& workers);
 
-  /// Whether each drive is analysed by itself, afresh.
+  /// Whether each drive is analysed by itself. Then drives that differ least are followed from one
+  /// to the next, where the ends of a run of eight, which are analysed afresh, are alike
+  /// (search_run()).
   bool are_one_by_one() const { return one_by_one_; }
   /// Of as many rows as there are results. False: progress stopped it; rows left out are undecided.
   bool fill(const FamilyRows& rows, std::span<SampleResult> results, Progress& progress) const;
@@ -65,11 +67,14 @@ class SampleAnswers {
 
  private:
   SampleResult result_of(const Answer* answer) const;
+  bool fill_one_by_one(std::span<const double> values, std::span<SampleResult> results,
+                       Progress& progress) const;
 
   const Target& target_;
   Quantity amplitude_;
   Workers workers_;
   Family family_;
+  std::vector<double> widths_;  ///< of the ranges of the parameters
   bool one_by_one_;
 };
 

@@ -20,12 +20,13 @@ JudgedValue judged(double value, const std::vector<Bounds>& met) {
     result.beyond = std::min(result.beyond, outside);
   }
   result.is_met = result.beyond <= 0.0;
-  result.moves_beyond = result.beyond;
+  result.beyond_limits = result.beyond;
   return result;
 }
 
-FeasibleValues scanned(const Judge& judge, const ScanPlan& plan, const Resolution& resolution) {
-  const std::vector<JudgedValue> tried = tried_values(judge, plan);
+FeasibleValues scanned(const Judge& judge, const std::vector<double>& first, const ScanPlan& plan,
+                       const Resolution& resolution) {
+  const std::vector<JudgedValue> tried = tried_between(judged_values(judge, first), judge, plan);
   FeasibleValues found;
   put_together(
       parts_between(tried), [&](double value) { return judge(value).is_met; },
@@ -49,8 +50,8 @@ TEST(ValueScan, FindsEveryIntervalThatIsWiderThanItsGrid) {
       met.push_back({from, from + draws.uniform(1.1, 3.0)});
       from = met.back().high;
     }
-    const FeasibleValues found = scanned([&](double value) { return judged(value, met); },
-                                         {.first = whole_numbers(20)}, fine);
+    const FeasibleValues found =
+        scanned([&](double value) { return judged(value, met); }, whole_numbers(20), {}, fine);
     ASSERT_EQ(found.intervals.size(), met.size()) << i;
     for (std::size_t k = 0; k < met.size(); ++k) {
       // Each end is the last number that meets the target.
@@ -67,12 +68,11 @@ TEST(ValueScan, LooksCloserNearALimit) {
   // Between 6 and 7 the limit is touched from 6.42 to 6.58.
   const std::vector<Bounds> met = {{6.42, 6.58}};
   const Judge judge = [&](double value) { return judged(value, met); };
-  EXPECT_TRUE(
-      scanned(judge, {.first = whole_numbers(20), .most_halvings = 0}, fine).intervals.empty());
-  const FeasibleValues found = scanned(judge, {.first = whole_numbers(20)}, fine);
+  EXPECT_TRUE(scanned(judge, whole_numbers(20), {.most_halvings = 0}, fine).intervals.empty());
+  const FeasibleValues found = scanned(judge, whole_numbers(20), {}, fine);
   ASSERT_EQ(found.intervals.size(), 1U);
   EXPECT_NEAR(found.intervals[0].low, 6.42, 1e-9);
-  EXPECT_EQ(closest_of(tried_values(judge, {.first = whole_numbers(20)})), 6.5);
+  EXPECT_EQ(closest_of(tried_values(judge, whole_numbers(20))), 6.5);
 }
 
 TEST(ValueScan, LeavesOpenWhatIsUnknown) {
@@ -82,7 +82,7 @@ TEST(ValueScan, LeavesOpenWhatIsUnknown) {
         if (value > 10.3 && value < 12.6) result.is_known = result.is_met = false;
         return result;
       },
-      {.first = whole_numbers(20)}, fine);
+      whole_numbers(20), {}, fine);
   ASSERT_EQ(found.intervals.size(), 2U);
   ASSERT_EQ(found.undecided.size(), 1U);
   EXPECT_EQ(found.intervals[0].high, found.undecided[0].low);
