@@ -7,7 +7,7 @@
 
 #include "base/range_check.hpp"
 #include "gearlash/parameter.hpp"
-#include "model/drivetrain_derivatives.hpp"
+#include "model/closed_form_number.hpp"
 #include "model/parameters.hpp"
 #include "model/proportional_servo.hpp"
 #include "question/final_servo.hpp"
@@ -30,7 +30,7 @@ double* place_in(Drive& drive, std::string_view path) {
 std::string paths_of(const Drive& drive) {
   std::string paths;
   for (const Parameter& parameter : all_parameters_of_drives()) {
-    if (!exists(parameter, drive) || !drivetrain_slopes(drive, parameter.path)) continue;
+    if (!exists(parameter, drive) || !enters_closed_form(drive, parameter.path)) continue;
     paths += (paths.empty() ? "" : ", ") + std::string(parameter.path);
   }
   return paths;
@@ -136,7 +136,7 @@ std::vector<Fault> faults_one_by_one(const TolerancedDrive& drive) {
   std::set<std::string_view> seen;
   for (const ParameterTolerance& varied : drive.varied) {
     const Parameter* parameter = find_parameter(varied.path, drive.nominal);
-    if (parameter == nullptr || !drivetrain_slopes(drive.nominal, varied.path)) {
+    if (parameter == nullptr || !enters_closed_form(drive.nominal, varied.path)) {
       check.refuse(varied.path, text_of(varied.distribution),
                    "must be a number of this drive: " + paths_of(drive.nominal));
       continue;
@@ -260,7 +260,7 @@ bool is_searched(const TolerancedDrive& drive) {
   return std::any_of(drive.varied.begin(), drive.varied.end(),
                      [&](const ParameterTolerance& varied) {
                        return is_number_of(drive.nominal, varied.path) &&
-                              !drivetrain_slopes(drive.nominal, varied.path);
+                              !enters_closed_form(drive.nominal, varied.path);
                      });
 }
 
