@@ -29,7 +29,7 @@ struct CheckedSensitivities {
   std::size_t cycles = 0;        ///< with derivatives
   std::size_t obstructed = 0;    ///< cycles without, of which the Jacobian says why
   std::size_t slopes = 0;        ///< compared
-  std::size_t missing = 0;       ///< a cycle without obstacle has none
+  std::size_t missing = 0;       ///< left out of a cycle without obstacle
   std::size_t incomparable = 0;  ///< numbers: however near, the cycle beside has other events
   /// Largest |slope − difference| over |slope| + |value/number|.
   double worst = 0.0;
@@ -215,8 +215,8 @@ TEST(PropertySearchedSensitivity, AgreesWithDifferencesOfTheCycles) {
   }
   EXPECT_EQ(found.cycles, cycles);
   EXPECT_GT(found.slopes, 25 * cycles);
-  EXPECT_EQ(found.missing, 0u);
-  EXPECT_LT(found.worst, 1e-6) << found.where;
+  EXPECT_LE(found.missing, found.slopes / 50);  // next to a grazing no two steps agree
+  EXPECT_LT(found.worst, 1e-7) << found.where;
   RecordProperty("slopes", static_cast<int>(found.slopes));
   RecordProperty("worst", std::to_string(found.worst * 1e6) + "e-6");
 }
