@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "closed_form/cycle_derivatives.hpp"
 #include "closed_form/limit_cycle.hpp"
+#include "question/change/derivatives.hpp"
 #include "question/change/feasible_values.hpp"
 #include "question/change/hunting_margin.hpp"
 #include "question/series/tolerance_study.hpp"
@@ -74,8 +74,8 @@ ReportPart enter_design_race() {
   lines.push_back(enter("a piece of ten million, study_tolerances(), all cores",
                         static_cast<double>(sampling.samples()),
                         [pieces] { return study_tolerances(pieces, sampling).hunting.value; }));
-  lines.push_back(enter("exact sensitivities, cycle_sensitivity()", 1.0,
-                        [] { return cycle_sensitivity(sample).amplitude.value; }));
+  lines.push_back(enter("sensitivities by nine parameters, drive_sensitivity()", 1.0,
+                        [] { return *drive_sensitivity(sample_drive()).slope(0, 0); }));
   lines.push_back(enter("certified search of the gain for no hunting, feasible_values()", 1.0,
                         [search] { return search("error_gain", true); }));
   lines.push_back(enter("certified search of the gain for an amplitude, feasible_values()", 1.0,

@@ -263,7 +263,7 @@ void add_limit_cycle_command(Command& app, Action& action) {
       ->type_name("NAMES")
       ->delimiter(',');
   command->add_flag("--sensitivities", options->sensitivities,
-                    "Add exact sensitivities to every parameter, in per cent for one per cent; of\n"
+                    "Add sensitivities to every parameter, in per cent for one per cent; of\n"
                     "searched drives for a continuous controller without encoder");
   command->footer(help_footer(limit_cycle_examples));
   set_action(*command, action, options, run);

@@ -1,4 +1,4 @@
-// How the limit cycle depends on the parameters of a drive: exact derivatives.
+// How the limit cycle depends on the parameters of a drive: derivatives.
 #pragma once
 
 #include <cstddef>
@@ -35,18 +35,21 @@ struct Jacobian {
 
 /// Derivatives of the limit cycle seen in practice, the largest that is not unstable.
 ///
-/// With a closed form: amplitude, period, frequency, multiplier and growth_at_rest, by forward
-/// differentiation, not by differences; errors are about 1e-12 of the larger of derivative and
-/// value/parameter.
+/// By differences of the answers at neighbouring values, extrapolated (Ridders 1982), with steps
+/// chosen so that two estimates agree: to about 1e-9 of the larger of derivative and
+/// value/parameter, less next to the boundary of hunting and for cycles that hardly resist
+/// disturbances. A slope whose estimates differ by more than 1e-6 of that, or which is another one
+/// on either side, is empty. At the end of a permitted range it is that of the permitted side.
+///
+/// With a closed form: amplitude, period, frequency, multiplier and growth_at_rest. By a
+/// restitution of 0 all slopes are 0 (docs/explanation/servo.md, Derivatives).
 ///
 /// Of other drives: amplitude, motor_amplitude, center, period and frequency of the cycle that
-/// analyse() finds, by its variational equations with saltation (Leine & Nijmeijer, Dynamics and
-/// Bifurcations of Non-Smooth Mechanical Systems, 2004, ch. 7), for every number that is neither 0
-/// nor within 0.3 % of the end of its permitted range. Jacobian::reason says why a cycle has none:
-/// a computer's ticks, an encoder's steps, infinitely many bounces in a period, a multiplier of 1.
-/// They hold as long as the cycle has the same events. They take seconds: the search of the cycle.
-/// If Progress stops it, the cycle is the one found by then, and the slopes not computed by then
-/// are empty.
+/// analyse() finds, followed by Newton's method, for every number that is not 0. Jacobian::reason
+/// says why a cycle has none: a computer's ticks, an encoder's steps, infinitely many bounces in a
+/// period, a multiplier of 1. They hold as long as the cycle has the same events. They take
+/// seconds: the search of the cycle. If Progress stops it, the cycle is the one found by then, and
+/// the slopes not computed by then are empty.
 ///
 /// Throws InvalidInput for a drive that is unsound, for another quantity, and for a path that is no
 /// number of the drive, or with a closed form does not enter it.

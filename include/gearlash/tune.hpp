@@ -74,7 +74,7 @@ struct TunedDrive {
 [[nodiscard]] std::vector<Fault> faults(const TuneTask& task, const TuneEffort& effort = {});
 
 /// Proposes values by optimisers (NLopt) on the few units that limited earlier proposals: DIRECT-L
-/// over all values, and from the best of them SLSQP with exact derivatives where there are any: a
+/// over all values, and from the best of them SLSQP with derivatives where there are any: a
 /// bandwidth, under limits of the cycle's amplitude, frequency and period, of bandwidth and phase
 /// margin, and of growth at rest with a closed form (not: encoders, computers, rest of drives that
 /// are searched); else Subplex. It puts each proposal to all units of a fixed sample (the

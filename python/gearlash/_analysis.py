@@ -79,7 +79,7 @@ def analyse(drive: Drive, *, proofs: bool = True, ceiling: bool = True, loop: bo
 
 def derivatives(drive: Drive, quantities: Sequence[str], parameters: Sequence[str], *,
                 progress: Progress = None) -> Jacobian:
-    """Give exact derivatives of the limit cycle with respect to parameters.
+    """Give derivatives of the limit cycle with respect to parameters.
 
     Parameters
     ----------
@@ -104,9 +104,9 @@ def derivatives(drive: Drive, quantities: Sequence[str], parameters: Sequence[st
 
     Notes
     -----
-    Forward differentiation of the closed form; of other drives the variational equations with
-    saltation (Leine and Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical Systems,
-    2004, chapter 7).
+    Differences of the answers at neighbouring values, extrapolated. They agree to 1e-9 of the
+    larger of derivative and value/parameter, less next to the boundary of hunting; where they agree
+    to less than 1e-6 the slope is None.
 
     Examples
     --------

@@ -38,6 +38,7 @@ LimitCycle cycle_of_orbit(const NormalizedServo& servo, const ServoDynamics& dyn
   cycle.separated_time = cycle.period - cycle.engaged_time;
   cycle.impact_speed = orbit.map.hardest_impact;
   cycle.residual = orbit.residual;
+  cycle.traversals = orbit.order;
   cycle.impacts_per_period = static_cast<std::size_t>(repeats) * orbit.map.impacts;
   cycle.settles = orbit.map.settled;
   cycle.start = {start.load_position + start.gap, start.load_speed + start.gap_speed,
@@ -57,6 +58,27 @@ LimitCycle cycle_of_orbit(const NormalizedServo& servo, const ServoDynamics& dyn
     if (!closing) cycle.energy.impacts += event.energy_lost;
   }
   return cycle;
+}
+
+std::optional<LimitCycle> bouncing_cycle_beside(const NormalizedServo& servo,
+                                                const LimitCycle& near,
+                                                const NormalizedServo& servo_near) {
+  const ServoDynamics dynamics = servo_dynamics(servo);
+  const ServoDynamics dynamics_near = servo_dynamics(servo_near);
+  if (dynamics.plastic_contact() || dynamics_near.plastic_contact()) return std::nullopt;
+  const ServoState& start = near.start;
+  const double gap_speed = start.motor_speed - start.load_speed;
+  const Arrival arrival(start.load_position,
+                        start.load_speed + dynamics_near.motor_inertia * gap_speed,
+                        -gap_speed / dynamics_near.restitution);
+  TraversalBudget budget{dynamics};
+  KnownOrbits known(budget);
+  if (!known.try_from(arrival, near.traversals)) return std::nullopt;
+  const LimitCycle cycle = cycle_of_orbit(servo, dynamics, known.list().front().orbit);
+  // Of bounces that settle any number may be counted one by one.
+  const bool is_alike = cycle.traversals == near.traversals && cycle.settles == near.settles &&
+                        (cycle.settles || cycle.impacts_per_period == near.impacts_per_period);
+  return is_alike ? std::optional(cycle) : std::nullopt;
 }
 
 }  // namespace gearlash

@@ -36,13 +36,6 @@ struct BasicUnitHalfCycle {
 };
 using UnitHalfCycle = BasicUnitHalfCycle<double>;
 
-/// The flight of two masses that a half cycle of unit amplitude starts with.
-template <class Real>
-BasicGapFlight<Real> unit_flight_of_two_masses(const BasicServoDynamics<Real>& dynamics) {
-  const BasicTorqueFreeLine<Real>& line = dynamics.torque_free_line;
-  return clean_parting<Real>(dynamics, line.position, line.speed, 0.0);
-}
-
 /// Q at parting.
 template <class Real>
 Real start_form(const BasicServoDynamics<Real>& dynamics, const BasicGapFlight<Real>& flight) {

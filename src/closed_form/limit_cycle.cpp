@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "closed_form/bouncing_cycles.hpp"
+#include "closed_form/cycle_of_orbit.hpp"
 #include "closed_form/energy_balance.hpp"
 #include "closed_form/growth_at_rest.hpp"
 #include "closed_form/plastic_cycle.hpp"
@@ -149,6 +151,20 @@ LimitCycleAnalysis enclose_limit_cycles(const NormalizedServo& servo, Reading re
   if (reading == Reading::converted) return enclose_limit_cycles(servo, box_of(servo, reading));
   require_none(faults(servo));
   return enclosed(servo, box_of(servo, reading), is_dissipative(servo, reading));
+}
+
+LimitCycleAnalysis analyse_beside(const NormalizedServo& servo, const LimitCycle* near,
+                                  const NormalizedServo& servo_near) {
+  const ServoDynamics dynamics = servo_dynamics(servo);
+  LimitCycleAnalysis analysis = begun(dynamics, false);
+  if (near == nullptr || analysis.verdict != Verdict::undecided) return analysis;
+  if (dynamics.plastic_contact()) {
+    analyse_plastic(dynamics, analysis);
+  } else if (auto cycle = bouncing_cycle_beside(servo, *near, servo_near)) {
+    cycle->stable = true;  // as the one near it; it may just have ceased to be
+    analysis.cycles.push_back(*std::move(cycle));
+  }
+  return analysis;
 }
 
 const LimitCycle* largest_stable(const LimitCycleAnalysis& analysis) {

@@ -38,6 +38,7 @@ struct LimitCycle {
   double separated_time = std::numeric_limits<double>::quiet_NaN();  ///< a period's share
   double residual = std::numeric_limits<double>::quiet_NaN();  ///< relative mismatch of the state
                                                                ///< after one map, of its amplitude
+  int traversals = 1;  ///< of the gap, after which it repeats (mirrored if they are odd)
   std::size_t impacts_per_period = 0;  ///< impacts counted one by one; a settling adds none more
   bool settles = false;                ///< bounces settle (or are plastic) before each separation
   CycleEnergy energy;
@@ -89,6 +90,12 @@ LimitCycleAnalysis analyse_limit_cycles(const NormalizedServo& servo);
 LimitCycleAnalysis enclose_limit_cycles(const NormalizedServo& servo, const ServoBox& box);
 /// For the servo itself, or for the decimals that its numbers represent.
 LimitCycleAnalysis enclose_limit_cycles(const NormalizedServo& servo, Reading reading);
+
+/// Growth at rest and, near the cycle of a servo that differs slightly, the cycle of `servo`,
+/// without a verdict. With bounces it is followed by Newton's method, and left out where it has
+/// another number of impacts. Precondition: sound servos, and a cycle of `servo_near` or nullptr.
+LimitCycleAnalysis analyse_beside(const NormalizedServo& servo, const LimitCycle* near,
+                                  const NormalizedServo& servo_near);
 
 /// The cycle that is seen in practice: the largest stable one, or nullptr.
 const LimitCycle* largest_stable(const LimitCycleAnalysis& analysis);

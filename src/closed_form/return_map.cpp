@@ -38,7 +38,7 @@ Traversal traverse(const ServoDynamics& dynamics, const Arrival& arrival, Deriva
   const GapState before = before_arrival(dynamics, arrival);
   const PhaseStart start = begin_phase(dynamics, before);
   GapState after = start.impact.after;
-  BasicDisturbances<double> disturbances(dynamics);
+  Disturbances disturbances(dynamics);
   if (with_slope) disturbances.meet(before, after);
   traversal.impacts = 1;
   traversal.hardest_impact = std::abs(arrival(2));

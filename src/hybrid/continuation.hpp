@@ -1,6 +1,7 @@
 // Follows a periodic orbit through folds as one parameter of its system changes.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -8,9 +9,11 @@
 
 #include "gearlash/progress.hpp"
 #include "hybrid/periodic_orbit.hpp"
-#include "hybrid/system_slopes.hpp"
 
 namespace gearlash::hybrid {
+
+/// The system for a parameter's value. The state's numbers and the modes stay the same.
+using Family = std::function<HybridSystem(double parameter)>;
 
 struct BranchPoint {
   double parameter = std::numeric_limits<double>::quiet_NaN();

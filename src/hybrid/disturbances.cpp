@@ -5,8 +5,6 @@
 namespace gearlash::hybrid {
 namespace {
 
-using Index = Eigen::Index;
-
 const AffineReset& reset_of(const AffineMode& mode, const Event& event) {
   switch (event.kind) {
     case EventKind::timed:
@@ -25,43 +23,17 @@ Vector velocity(const AffineFlow& flow, const Vector& numbers) {
   return flow.matrix * numbers + flow.offset;
 }
 
-Disturbances::Disturbances(const HybridSystem& system, const State& start, double time,
-                           const SystemSlopes* slopes)
+Disturbances::Disturbances(const HybridSystem& system, const State& start, double time)
     : system_(system),
-      slopes_(slopes),
       mode_(start.mode),
-      numbers_(start.numbers),
       time_(time),
-      slope_(Matrix::Identity(system.size(), system.size() + (slopes != nullptr ? 1 : 0))),
-      delay_(Eigen::RowVectorXd::Zero(slope_.cols())) {}
+      slope_(Matrix::Identity(system.size(), system.size())),
+      delay_(Eigen::RowVectorXd::Zero(system.size())) {}
 
-bool Disturbances::flow_to(double time) {
+void Disturbances::flow_to(double time) {
   const double duration = time - time_;
   time_ = time;
-  return duration <= 0.0 || carry_on(duration);
-}
-
-bool Disturbances::carry_on(double duration) {
-  const AffineFlow& flow = system_.mode(mode_).flow;
-  if (slopes_ == nullptr) {
-    slope_ = exponential(flow.matrix * duration) * slope_;
-    return true;
-  }
-  const ModeSlopes* slopes = slopes_->mode(mode_);
-  if (slopes == nullptr) return false;
-  // The motion's numbers, 1, and the disturbances move as one linear system.
-  const Index size = system_.size();
-  Matrix joint = Matrix::Zero(2 * size + 1, 2 * size + 1);
-  joint.topLeftCorner(size, size) = flow.matrix;
-  joint.col(size).head(size) = flow.offset;
-  joint.bottomLeftCorner(size, size) = slopes->flow.matrix;
-  joint.col(size).tail(size) = slopes->flow.offset;
-  joint.bottomRightCorner(size, size) = flow.matrix;
-  const Matrix moved = exponential(joint * duration);
-  slope_ = moved.bottomRightCorner(size, size) * slope_;
-  slope_.col(size) += moved.bottomLeftCorner(size, size) * numbers_ + moved.col(size).tail(size);
-  numbers_ = moved.topLeftCorner(size, size) * numbers_ + moved.col(size).head(size);
-  return true;
+  if (duration > 0.0) slope_ = exponential(system_.mode(mode_).flow.matrix * duration) * slope_;
 }
 
 bool Disturbances::delay_at(const Event& event, const Vector& flow_before) {
@@ -69,11 +41,6 @@ bool Disturbances::delay_at(const Event& event, const Vector& flow_before) {
   const double speed = guard.normal.dot(flow_before);
   if (speed == 0.0) return false;
   delay_ = guard.normal.transpose() * slope_;
-  if (slopes_ != nullptr) {
-    const ModeSlopes* slopes = slopes_->mode(mode_);
-    if (slopes == nullptr) return false;
-    delay_[system_.size()] += slopes->guards[event.transition].at(event.before);
-  }
   delay_ /= -speed;
   return true;
 }
@@ -81,7 +48,7 @@ bool Disturbances::delay_at(const Event& event, const Vector& flow_before) {
 bool Disturbances::meet(const Event& event) {
   const bool is_chained = event.time == last_event_;
   last_event_ = event.time;
-  if (!flow_to(event.time)) return false;
+  flow_to(event.time);
   const Matrix reset = reset_of(system_.mode(event.mode), event).slope(system_.size());
   const Vector flow_before = velocity(system_.mode(mode_).flow, event.before);
   if (event.kind == EventKind::timed) {
@@ -91,15 +58,8 @@ bool Disturbances::meet(const Event& event) {
     return false;
   }
   mode_ = event.mode_after;
-  numbers_ = event.after;
   const Vector jump = velocity(system_.mode(mode_).flow, event.after) - reset * flow_before;
   slope_ = reset * slope_ - jump * delay_;
-  if (slopes_ == nullptr || event.kind == EventKind::timed) return true;
-  const ModeSlopes* slopes = slopes_->mode(event.mode);
-  if (slopes == nullptr) return false;
-  const bool settles = event.kind == EventKind::settling;
-  const auto& resets = settles ? slopes->settlings : slopes->resets;
-  slope_.col(system_.size()) += velocity(resets[event.transition], event.before);
   return true;
 }
 

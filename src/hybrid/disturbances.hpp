@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "hybrid/hybrid_trajectory.hpp"
-#include "hybrid/system_slopes.hpp"
 
 namespace gearlash::hybrid {
 
@@ -15,40 +14,30 @@ Vector velocity(const AffineFlow& flow, const Vector& numbers);
 ///   R δ + (f⁺ − R f)(c·δ)/(c·f)
 /// (saltation), and at a tick of a clock R δ. An event that another one causes at its own instant
 /// is as late as that one: R δ − (f⁺ − R f)τ, with τ = −(c·δ)/(c·f) of the first, 0 for a tick.
-///
-/// With slopes of the system another column follows, ∂x/∂parameter for a fixed start:
-///   δ′ = A δ + A_p x + b_p,  τ = −(c·δ + c_p·x + d_p)/(c·f),  δ⁺ = R δ + R_p x + r_p − (f⁺ − R
-///   f)τ.
 /// Source: Aizerman & Gantmakher 1958; Leine & Nijmeijer, Dynamics and Bifurcations of Non-Smooth
 /// Mechanical Systems (2004), ch. 7.
 class Disturbances {
  public:
-  /// From a start at a time. The system and the slopes must live as long.
-  Disturbances(const HybridSystem& system, const State& start, double time,
-               const SystemSlopes* slopes = nullptr);
+  /// From a start at a time. The system must live as long.
+  Disturbances(const HybridSystem& system, const State& start, double time);
 
-  /// Along the flow of the present mode. False if it has no slopes.
-  bool flow_to(double time);
-  /// Up to an event and across it. False if its guard is met at no speed, or has no slopes.
+  /// Along the flow of the present mode.
+  void flow_to(double time);
+  /// Up to an event and across it. False if its guard is met at no speed.
   bool meet(const Event& event);
 
-  /// A column for each number of the start, and one for the parameter.
+  /// A column for each number of the start.
   const Matrix& slope() const { return slope_; }
-  /// ∂/∂start and ∂/∂parameter of the last event's time.
-  const Eigen::RowVectorXd& delay() const { return delay_; }
 
  private:
-  bool carry_on(double duration);
   bool delay_at(const Event& event, const Vector& flow_before);
 
   const HybridSystem& system_;
-  const SystemSlopes* slopes_;
   std::size_t mode_;
-  Vector numbers_;  ///< of the motion, at `time_`
   double time_;
   double last_event_ = std::numeric_limits<double>::quiet_NaN();
   Matrix slope_;
-  Eigen::RowVectorXd delay_;
+  Eigen::RowVectorXd delay_;  ///< ∂/∂start of the last event's time
 };
 
 }  // namespace gearlash::hybrid

@@ -94,8 +94,11 @@ ClosedFormServo normal_form_servo(const Drive& drive);
 std::optional<Drivetrain> proportional_drivetrain(const Drive& drive);
 
 /// Its drivetrain for one that is known to have a closed form, without checks:
-///   J_M = (J + J_G) n²,  F_M = (f + E) n² + S d,  K = S g,  S = gain_scale()
-///   (model/drivetrain_derivatives.hpp).
+///   J_M = (J + J_G) n²,  F_M = (f + E) n² + S d,  K = S g,  S = gain_scale(),
+/// E the winding's friction (K₁K₂/R, 0, K_N, 0), more by the torque per output times the feedback
+/// of the motor's speed, g and d the controller's output per error and per speed; or of a normal
+/// form
+///   J_M = 1/(1 + r),  J_L = 1 − J_M,  F_M = 2ζω_n(1 − φ),  F_L = 2ζω_nφ,  K = ω_n².
 /// Nothing is allocated if the controller is P, PD or a cascade.
 Drivetrain referred_drivetrain(const Drive& drive);
 

@@ -56,8 +56,6 @@ Eigen::Vector3cd eigenvalues(const Eigen::Matrix3d& matrix);
 /// By full pivoting.
 Eigen::Vector3d solved_with_full_pivoting(const Eigen::Matrix3d& matrix,
                                           const Eigen::Vector3d& right);
-using FourColumns = Eigen::Matrix<double, 3, 4>;
-FourColumns solved_with_full_pivoting(const Eigen::Matrix3d& matrix, const FourColumns& right);
 /// Pivots of the elimination with full pivoting, by modulus.
 double least_pivot(const Eigen::Matrix3d& matrix);
 

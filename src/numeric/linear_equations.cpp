@@ -78,10 +78,6 @@ Eigen::Vector3d solved_with_full_pivoting(const Eigen::Matrix3d& matrix,
   return solved_with_full_pivoting(Eigen::MatrixXd(matrix), Eigen::VectorXd(right));
 }
 
-FourColumns solved_with_full_pivoting(const Eigen::Matrix3d& matrix, const FourColumns& right) {
-  return Eigen::MatrixXd(matrix).fullPivLu().solve(Eigen::MatrixXd(right));
-}
-
 double least_pivot(const Eigen::Matrix3d& matrix) {
   return Eigen::MatrixXd(matrix).fullPivLu().matrixLU().diagonal().cwiseAbs().minCoeff();
 }

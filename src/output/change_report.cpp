@@ -190,8 +190,11 @@ std::vector<std::size_t> by_falling_effect(const Jacobian& sensitivity) {
   std::vector<std::size_t> order(sensitivity.paths.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const Quantity quantity = quantity_of_effect(sensitivity);
+  // Equal ones differ in what is beyond the accuracy of differences.
   const auto effect = [&](std::size_t parameter) {
-    return std::abs(elasticity_of(sensitivity, quantity, parameter).value_or(0.0));
+    constexpr double known_parts = 1e6;
+    return std::round(known_parts *
+                      std::abs(elasticity_of(sensitivity, quantity, parameter).value_or(0.0)));
   };
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return effect(a) > effect(b); });

@@ -118,7 +118,7 @@ std::string effort_text(const TuneReport& report) {
         "points of Sobol's sequence. Other units may miss the target",
         tuned.rounds, tuned.units);
   }
-  if (tuned.by_derivatives) text += ". The last values were closed in on by exact derivatives";
+  if (tuned.by_derivatives) text += ". The last values were closed in on by derivatives";
   return text + ". Other values may be better.";
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "gearlash/parameter.hpp"
-#include "model/drivetrain_derivatives.hpp"
+#include "model/closed_form_number.hpp"
 #include "model/gains.hpp"
 #include "model/parameters.hpp"
 #include "model/reduced_drive.hpp"
@@ -84,37 +84,23 @@ TEST(JointGains, OfAMotorDrivenByAVoltageAreVolts) {
   }
 }
 
-/// The slopes of the drivetrain are its differences.
-TEST(PropertyJointGains, SlopesAreThoseOfTheDrivetrain) {
+TEST(JointGains, EnterTheClosedForm) {
   Drive drive = joint({.terms = PIDTerms::PD, .proportional = 100.0, .derivative = 2.0});
   drive.sensor.position = SensorPlace::both;
-  drive.gearbox.inertia = 1e-5;
   drive.motor.kind = TorqueControl{.torque_constant = 0.03};
+  EXPECT_FALSE(enters_closed_form(drive, "gearbox.inertia"));  // 0 as by default
+  drive.gearbox.inertia = 1e-5;
   for (const std::size_t shaft : {0U, 1U, 2U}) {
     choose_shaft(drive, shaft);
     for (const char* path :
          {"gearbox.ratio", "gearbox.inertia", "controller.proportional", "controller.derivative"}) {
-      SCOPED_TRACE(std::to_string(shaft) + " " + path);
-      const auto slopes = drivetrain_slopes(drive, path);
-      ASSERT_TRUE(slopes);
-      const double value = get(drive, path);
-      const auto at = [&](double share) {
-        Drive changed = drive;
-        set(changed, path, value * (1.0 + share));
-        return referred_drivetrain(changed);
-      };
-      constexpr double step = 1e-5;
-      const Drivetrain high = at(step);
-      const Drivetrain low = at(-step);
-      const auto expect = [&](double slope, double upper, double lower) {
-        const double difference = (upper - lower) / (2.0 * step * value);
-        EXPECT_NEAR(slope, difference, 1e-6 * (std::abs(slope) + std::abs(upper)));
-      };
-      expect(slopes->motor_inertia, high.motor_inertia, low.motor_inertia);
-      expect(slopes->motor_friction, high.motor_friction, low.motor_friction);
-      expect(slopes->stiffness, high.stiffness, low.stiffness);
+      EXPECT_TRUE(enters_closed_form(drive, path)) << path;
     }
-    EXPECT_FALSE(drivetrain_slopes(drive, "motor.torque_constant"));
+    // Of no effect; of none by itself; no number; none of this drive.
+    for (const char* path : {"motor.torque_constant", "motor.coulomb", "sensor.position",
+                             "motor.resistance", "load.mass"}) {
+      EXPECT_FALSE(enters_closed_form(drive, path)) << path;
+    }
   }
 }
 

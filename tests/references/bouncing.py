@@ -184,7 +184,7 @@ CYCLES = [
 
 TABLES = [
     Table(
-        "closed_form/bouncing_slopes",
+        "question/bouncing_slopes",
         "Limit cycles with bounces (of subharmonic ones over a whole period), and derivatives, of\n"
         "which each is a central difference; the guesses are where the search for them begins.",
         "damping inertia_ratio friction_ratio restitution backlash"

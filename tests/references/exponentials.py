@@ -35,18 +35,6 @@ def flight_differences(_, x, y):
     ]
 
 
-def flight_slopes(_, x, y):
-    """Minus the derivatives by x."""
-    x, y = mpf(x), mpf(y)
-    return [
-        difference_of_exp(*points)
-        for points in (
-            [-x, -x], [0, -x, -x], [0, 0, -x, -x],
-            [-x, -x, -y], [0, -x, -x, -y], [0, 0, -x, -x, -y],
-        )
-    ]
-
-
 def near(draws, x, low, high):
     return x * (1.0 + draws.either_sign(low, high))
 
@@ -80,11 +68,6 @@ ENDS = [
     0.0, 5e-324, 1e-300, 1e-20, 1e-12, 1e-8, 1e-4, 0.1, 0.5, 1 - 2**-53, 1.0, 1 + 2**-52, 1.5, 3.0,
     36.0, 700.0, 708.0, 745.0, 800.0, 1e4, 1e9,
 ]
-
-
-def slopes_of(draws):
-    x = draws.log_uniform(1e-6, 300.0)
-    return x, near(draws, x, 1e-8, 0.1) if draws.happens(0.3) else draws.log_uniform(1e-6, 300.0)
 
 
 # ---- engaged motion -------------------------------------------------------------------------------
@@ -277,14 +260,6 @@ TABLES = [
             Family("exponents", 400, before_exponents_vanish),
         ],
         seed=1843,
-    ),
-    Table(
-        "closed_form/decay_slopes",
-        "Divided differences of exp: -x, -x; 0, -x, -x; 0, 0, -x, -x; and the same with -y.",
-        "x y", "factor integral double_integral joint joint_integral joint_double_integral",
-        flight_slopes,
-        [Family("drawn", 600, slopes_of)],
-        seed=2201,
     ),
     Table(
         "closed_form/engaged_motions",

@@ -236,7 +236,7 @@ TABLES = [
         seed=1831,
     ),
     Table(
-        "closed_form/plastic_slopes",
+        "question/plastic_slopes",
         "The plastic limit cycle and its derivatives, of which each is a central difference.\n"
         "Those by inertia_ratio are by the load's share of the inertia where a side is massless.",
         "damping inertia_ratio friction_ratio",

@@ -7,7 +7,7 @@
 #include "base/special_numbers.hpp"
 #include "closed_form/closed_answer.hpp"
 #include "closed_form/growth_at_rest.hpp"
-#include "model/drivetrain_derivatives.hpp"
+#include "model/closed_form_number.hpp"
 #include "model/parameter_values.hpp"
 #include "question/axis.hpp"
 #include "question/change/target.hpp"
@@ -17,7 +17,7 @@ namespace gearlash {
 std::optional<ClosedFormLine> ClosedFormLine::along(const Drive& drive, const std::string& path) {
   std::optional<Drive> closed = closed_form_drive(drive);
   const Axis axis{.path = path};
-  if (!closed || parameter_of(axis, *closed) == nullptr || !drivetrain_slopes(*closed, path)) {
+  if (!closed || parameter_of(axis, *closed) == nullptr || !enters_closed_form(*closed, path)) {
     return std::nullopt;
   }
   return ClosedFormLine(*std::move(closed), path);
@@ -66,7 +66,7 @@ double ClosedFormLine::growth_at(double value) const {
 }
 
 /// Between two sound drives that differ in one number, every number of the drivetrain is monotone
-/// in that number (formulas in drivetrain_slopes()), so box_between() contains all drives between
+/// in that number (formulas in referred_drivetrain()), so box_between() contains all drives between
 /// them. Most are linear in the number or its reciprocal, or go as its square. The exceptions are
 /// 1/(1 + r) and the friction (f + E) n² + T n d of a ratio and feedback d < 0, which rises
 /// wherever it is not negative.
@@ -111,9 +111,15 @@ Bounds ClosedFormLine::range() const {
     return wanted;
   };
   if (is_share()) return {reach(0.0), reach(1.0)};
-  const DrivetrainSlopes by = *drivetrain_slopes(drive_, axis_.path);
-  const double friction = by.motor_friction + by.load_friction;
-  if (by.stiffness == 0.0 && by.motor_inertia == 0.0 && by.load_inertia == 0.0 && friction > 0.0) {
+  // All that only adds friction adds it in proportion.
+  const double other = present_ == 0.0 ? 1.0 : 2.0 * present_;
+  const Drivetrain from = referred_drivetrain(drive_at(present_));
+  const Drivetrain to = referred_drivetrain(drive_at(other));
+  const double added =
+      to.motor_friction - from.motor_friction + (to.load_friction - from.load_friction);
+  const double friction = added / (other - present_);
+  if (to.stiffness == from.stiffness && to.motor_inertia == from.motor_inertia &&
+      to.load_inertia == from.load_inertia && friction > 0.0) {
     const double critical = 2.0 * std::sqrt(drivetrain_.stiffness) *
                             std::sqrt(drivetrain_.motor_inertia + drivetrain_.load_inertia);
     return {reach(0.0), reach(times_critical * critical / friction)};

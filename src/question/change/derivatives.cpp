@@ -6,172 +6,131 @@
 
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
+#include "closed_form/closed_answer.hpp"
 #include "gearlash/design.hpp"
 #include "gearlash/parameter.hpp"
-#include "model/parameter_values.hpp"
+#include "model/closed_form_number.hpp"
 #include "question/axis.hpp"
+#include "question/change/closed_form_line.hpp"
 #include "question/change/orbit_derivatives.hpp"
 #include "question/final_servo.hpp"
 
 namespace gearlash {
 namespace {
 
-/// The chain rule: `by` holds the drivetrain's slopes with respect to a number, `of` a quantity's
-/// slopes with respect to the drivetrain.
-double chained(const DrivetrainSlopes& by, const DrivetrainSlopes& of) {
-  return by.motor_inertia * of.motor_inertia + by.load_inertia * of.load_inertia +
-         by.motor_friction * of.motor_friction + by.load_friction * of.load_friction +
-         by.stiffness * of.stiffness + by.backlash * of.backlash + by.restitution * of.restitution;
-}
-
-DrivetrainSlopes scaled(double factor, const DrivetrainSlopes& slopes) {
-  return {factor * slopes.motor_inertia,  factor * slopes.load_inertia,
-          factor * slopes.motor_friction, factor * slopes.load_friction,
-          factor * slopes.stiffness,      factor * slopes.backlash,
-          factor * slopes.restitution};
-}
-
-DrivetrainSlopes sum(const DrivetrainSlopes& a, const DrivetrainSlopes& b) {
-  return {a.motor_inertia + b.motor_inertia,   a.load_inertia + b.load_inertia,
-          a.motor_friction + b.motor_friction, a.load_friction + b.load_friction,
-          a.stiffness + b.stiffness,           a.backlash + b.backlash,
-          a.restitution + b.restitution};
-}
-
-/// The slopes of the normalized parameters and of ln ω_n.
-class Normalization {
- public:
-  Normalization(const Drivetrain& drive, const NormalizedServo& servo) {
-    const double inertia = drive.motor_inertia + drive.load_inertia;
-    const double friction = drive.motor_friction + drive.load_friction;
-    const double by_inertia = -0.5 / inertia;
-    log_frequency_ = {.motor_inertia = by_inertia,
-                      .load_inertia = by_inertia,
-                      .stiffness = 0.5 / drive.stiffness};
-    damping_ = {.motor_inertia = servo.damping * by_inertia,
-                .load_inertia = servo.damping * by_inertia,
-                .motor_friction = servo.damping / friction,
-                .load_friction = servo.damping / friction,
-                .stiffness = -0.5 * servo.damping / drive.stiffness};
-    load_share_ = {.motor_inertia = -drive.load_inertia / inertia / inertia,
-                   .load_inertia = drive.motor_inertia / inertia / inertia};
-    friction_ratio_ = {.motor_friction = -servo.friction_ratio / friction,
-                       .load_friction = drive.motor_friction / friction / friction};
+/// A servo with a closed form, and its limit cycle seen in practice.
+struct PresentServo {
+  explicit PresentServo(const FinalServo& of) : servo(of.closed_form.servo) {
+    if (servo.damping == 0.0) {
+      reason = "not computed without damping";
+      return;
+    }
+    const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
+    if (const LimitCycle* largest = largest_stable(analysis)) {
+      cycle = *largest;
+    } else {
+      reason = analysis.verdict == Verdict::undecided
+                   ? "the servo lies on the boundary of hunting, so only growth at rest has them"
+                   : "there is no limit cycle, so only growth at rest has them";
+    }
   }
 
-  const DrivetrainSlopes& log_frequency() const { return log_frequency_; }
-
-  DrivetrainSlopes slopes_of(const ServoGradient& gradient) const {
-    DrivetrainSlopes slopes = scaled(gradient.damping, damping_);
-    slopes = sum(slopes, scaled(gradient.load_share, load_share_));
-    slopes = sum(slopes, scaled(gradient.friction_ratio, friction_ratio_));
-    slopes.backlash = gradient.backlash;
-    slopes.restitution = gradient.restitution;
-    return slopes;
+  Answer answer_beside(const FinalServo& of) const {
+    if (servo.damping == 0.0) return {};
+    const LimitCycle* near = cycle ? &*cycle : nullptr;
+    return answer_of(analyse_beside(of.closed_form.servo, near, servo), of.closed_form,
+                     of.stiffness);
   }
 
- private:
-  DrivetrainSlopes log_frequency_, damping_, load_share_, friction_ratio_;
+  NormalizedServo servo;
+  std::optional<LimitCycle> cycle{};
+  std::string reason{};  ///< why it has no derivatives
 };
 
-}  // namespace
-
-const QuantitySlopes* DrivetrainSensitivity::find(Quantity quantity) const {
-  const auto found = std::find_if(quantities.begin(), quantities.end(),
-                                  [&](const auto& one) { return one.quantity == quantity; });
-  return found == quantities.end() ? nullptr : &*found;
+/// The change of a number that makes the drivetrain another one.
+double unit_on(const ClosedFormLine& line) {
+  const double present = line.present();
+  if (present != 0.0) return std::abs(present);
+  const std::optional<FinalServo> here = line.at(0.0);
+  const std::optional<FinalServo> there = line.at(1.0);
+  if (!here || !there) return 1.0;
+  const Drivetrain& from = here->drivetrain;
+  const Drivetrain& to = there->drivetrain;
+  const double share = (std::abs(to.motor_inertia - from.motor_inertia) +
+                        std::abs(to.load_inertia - from.load_inertia)) /
+                           (from.motor_inertia + from.load_inertia) +
+                       (std::abs(to.motor_friction - from.motor_friction) +
+                        std::abs(to.load_friction - from.load_friction)) /
+                           (from.motor_friction + from.load_friction);
+  return share > 0.0 && std::isfinite(share) ? 1.0 / share : 1.0;
 }
 
-QuantitySlopes drivetrain_growth(const Drivetrain& drive) {
-  const NormalizedServo servo = normalize(drive);
-  const SensitiveValue growth = growth_sensitivity(servo);
-  return {Quantity::growth_at_rest, growth.value,
-          Normalization(drive, servo).slopes_of(growth.slope)};
+/// Bounces act as the cube of their restitution (docs/explanation/motions.md, Settling): all slopes
+/// by one of 0 are 0.
+bool is_plastic_restitution(const std::string& path, double present) {
+  return present == 0.0 && find_parameter(path)->path == "contact.restitution";
 }
 
-DrivetrainSensitivity drivetrain_sensitivity(const Drivetrain& drive) {
-  const NormalizedServo servo = normalize(drive);
-  const CycleSensitivity cycle = cycle_sensitivity(servo);
-  DrivetrainSensitivity sensitivity{.outcome = cycle.outcome};
-  const Normalization normalization(drive, servo);
-  const auto add = [&](Quantity quantity, const SensitiveValue& value) {
-    if (std::isnan(value.value)) return;
-    sensitivity.quantities.push_back({quantity, value.value, normalization.slopes_of(value.slope)});
-  };
-  add(Quantity::growth_at_rest, cycle.growth_at_rest);
-  add(Quantity::amplitude, cycle.amplitude);
-  add(Quantity::multiplier, cycle.multiplier);
-  if (!cycle.available()) return sensitivity;
-  // In seconds: T = T′/ω_n, dT = (dT′ − T′ d ln ω_n)/ω_n; and f = 1/T.
-  const double unit = 1.0 / natural_frequency(drive);
-  const double period = cycle.period.value * unit;
-  const DrivetrainSlopes slopes = sum(scaled(unit, normalization.slopes_of(cycle.period.slope)),
-                                      scaled(-period, normalization.log_frequency()));
-  sensitivity.quantities.push_back({Quantity::period, period, slopes});
-  sensitivity.quantities.push_back(
-      {Quantity::frequency, 1.0 / period, scaled(-1.0 / (period * period), slopes)});
-  return sensitivity;
-}
-
-namespace {
-
-std::string reason(SensitivityOutcome outcome) {
-  switch (outcome) {
-    case SensitivityOutcome::no_cycle:
-      return "there is no limit cycle, so only growth at rest has them";
-    case SensitivityOutcome::undecided:
-      return "the servo lies on the boundary of hunting, so only growth at rest has them";
-    case SensitivityOutcome::undamped:
-      return "not computed without damping";
-    case SensitivityOutcome::bounces:
-      return "not computed for this motion, in which faces bounce";
-    case SensitivityOutcome::available:
-      break;
-  }
-  return "";
-}
-
-/// By the number as it is named, which may be a reciprocal.
-std::optional<DrivetrainSlopes> slopes_by(const Drive& drive, const std::string& name) {
-  std::optional<DrivetrainSlopes> slopes = drivetrain_slopes(drive, name);
-  const Parameter* parameter = find_parameter(name);
-  const OtherForm* form = slopes ? form_named(*parameter, name) : nullptr;
-  if (form == nullptr || form->dimension == nullptr) return slopes;
-  const double value = get(drive, name);
-  return scaled(-form->inverse / (value * value), *slopes);
-}
-
-/// The Jacobian with respect to numbers of the drive, by the chain rule.
+/// With respect to numbers of a drive with a closed form.
 Jacobian jacobian_of(const Drive& drive, std::span<const Quantity> quantities,
                      const std::vector<std::string>& names) {
   const Drive closed = *closed_form_drive(drive);
-  const DrivetrainSensitivity found = drivetrain_sensitivity(referred_drivetrain(closed));
-  Jacobian jacobian{.reason = reason(found.outcome)};
-  jacobian.quantities.assign(quantities.begin(), quantities.end());
-  std::vector<DrivetrainSlopes> by_name;
+  const FinalServo servo = servo_without_checks(closed);
+  const PresentServo present(servo);
+  const Answer answer = present.answer_beside(servo);
+  Jacobian jacobian{.reason = present.reason};
+  std::vector<ClosedFormLine> lines;
   RangeCheck check;
   for (const std::string& name : names) {
     const std::string path = path_named(name, closed);
-    if (const std::optional<DrivetrainSlopes> slopes = slopes_by(closed, path)) {
+    if (auto line = ClosedFormLine::along(closed, path)) {
       jacobian.paths.push_back(path);
-      jacobian.present.push_back(get(closed, path));
-      by_name.push_back(*slopes);
+      jacobian.present.push_back(line->present());
+      lines.push_back(*std::move(line));
     } else {
       check.refuse("paths", name, "must be a number of this drive that enters its closed form");
     }
   }
   require_none(check.faults());
-  for (const Quantity quantity : quantities) {
-    const QuantitySlopes* of = found.find(quantity);
-    jacobian.values.push_back(of == nullptr ? std::nullopt : std::optional(of->value));
-    for (const DrivetrainSlopes& by : by_name) {
-      jacobian.slopes.push_back(known(of == nullptr ? not_a_number : chained(by, of->slopes)));
-    }
+  jacobian.quantities.assign(quantities.begin(), quantities.end());
+  for (const Quantity quantity : quantities) jacobian.values.push_back(answer.value(quantity));
+  jacobian.slopes.resize(quantities.size() * lines.size());
+  for (std::size_t j = 0; j < lines.size(); ++j) {
+    const auto answer_at = [&](double value) {
+      if (is_plastic_restitution(jacobian.paths[j], jacobian.present[j])) return answer;
+      if (lines[j].is_backlash() && lines[j].present() > 0.0) return with_backlash(answer, value);
+      const std::optional<FinalServo> beside = lines[j].at(value);
+      return beside ? present.answer_beside(*beside) : Answer{};
+    };
+    set_slopes(jacobian, j, answer_at, {.unit = unit_on(lines[j])});
   }
   return jacobian;
 }
 
 }  // namespace
+
+void set_slopes(Jacobian& jacobian, std::size_t parameter, const AnswerAt& answer_at,
+                DifferenceSteps steps) {
+  const NumbersAt numbers_at = [&](double value) {
+    const Answer answer = answer_at(value);
+    std::vector<double> numbers;
+    for (const Quantity quantity : jacobian.quantities) {
+      numbers.push_back(answer.value(quantity).value_or(not_a_number));
+    }
+    return numbers;
+  };
+  const double present = jacobian.present[parameter];
+  const double amplitude = answer_at(present).value(Quantity::amplitude).value_or(0.0);
+  for (std::size_t i = 0; i < jacobian.quantities.size(); ++i) {
+    const double size = std::abs(jacobian.values[i].value_or(0.0));
+    steps.sizes.push_back(jacobian.quantities[i] == Quantity::center ? size + amplitude : size);
+  }
+  const std::vector<Difference> found = differences(numbers_at, present, steps);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (jacobian.quantities[i] == Quantity::amplitude && amplitude == 0.0) continue;
+    jacobian.slopes[i * jacobian.paths.size() + parameter] = known(found[i].slope);
+  }
+}
 
 Jacobian drive_sensitivity(const Drive& drive, const std::vector<std::string>& names) {
   return jacobian_of(drive, differentiable, names);
@@ -183,7 +142,8 @@ Jacobian drive_sensitivity(const Drive& drive) {
   std::vector<std::string> names;
   for (const Parameter& parameter : all_parameters_of_drives()) {
     const bool is_its_own = find_parameter(parameter.path, closed) == &parameter;
-    if (is_its_own && drivetrain_slopes(closed, parameter.path)) names.emplace_back(parameter.path);
+    if (is_its_own && enters_closed_form(closed, parameter.path))
+      names.emplace_back(parameter.path);
   }
   return drive_sensitivity(drive, names);
 }

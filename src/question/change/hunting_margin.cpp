@@ -4,14 +4,15 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 #include "base/progress_part.hpp"
 #include "base/special_numbers.hpp"
 #include "closed_form/growth_at_rest.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
+#include "numeric/differences.hpp"
 #include "numeric/linear_algebra.hpp"
-#include "question/change/derivatives.hpp"
 #include "question/change/searched_margin.hpp"
 #include "question/change/target.hpp"
 #include "question/final_servo.hpp"
@@ -47,14 +48,14 @@ class LogGrowth {
     Change gradient = Change::Constant(not_a_number);
   };
   ValueAndGradient with_gradient(const Change& change) const {
-    const Drivetrain here = changed(drive_, change);
-    if (!faults(here).empty()) return {};
-    const auto [quantity, growth, slopes] = drivetrain_growth(here);
-    Change gradient;
-    gradient << slopes.motor_inertia * here.motor_inertia, slopes.load_inertia * here.load_inertia,
-        slopes.motor_friction * here.motor_friction, slopes.load_friction * here.load_friction,
-        slopes.stiffness * here.stiffness;
-    return {std::log(growth), gradient / growth};
+    ValueAndGradient here{.value = value(change)};
+    for (Eigen::Index i = 0; i < change.size(); ++i) {
+      const NumbersAt along = [&](double step) -> std::vector<double> {
+        return {value(change + step * Change::Unit(i))};
+      };
+      here.gradient(i) = differences(along, 0.0, {.sizes = {1.0}}).front().slope;
+    }
+    return here;
   }
 
  private:
@@ -167,9 +168,9 @@ std::optional<Change> on_boundary(const LogGrowth& growth, Change at) {
   return std::nullopt;
 }
 
-/// Second derivatives of ln μ₀ by differences of its exact gradient.
+/// Second derivatives of ln μ₀ by differences of its gradient.
 Eigen::Matrix<double, 5, 5> curvature(const LogGrowth& growth, const Change& at) {
-  constexpr double step = 1e-5;
+  constexpr double step = 1e-4;
   Eigen::Matrix<double, 5, 5> second;
   for (Eigen::Index i = 0; i < 5; ++i) {
     const Change aside = step * Change::Unit(i);

@@ -11,7 +11,7 @@ ParameterMargin margin_of(const FeasibleValues& quiet);
 
 /// Solves for the OverallMargin:
 ///   min |x|  subject to  ln μ₀(J_M e^{x₁}, J_L e^{x₂}, F_M e^{x₃}, F_L e^{x₄}, K e^{x₅}) = 0.
-/// The steps are x ← g (g·x − ln μ₀)/|g|², where g is the exact gradient of ln μ₀. A step that does
+/// The steps are x ← g (g·x − ln μ₀)/|g|², where g is the gradient of ln μ₀. A step that does
 /// not lower ½|x|² + k|ln μ₀| is shortened. Newton's method on x = λg, ln μ₀ = 0 finishes. This is
 /// the design point of Hasofer & Lind (1974), Rackwitz & Fiessler (1978) and Zhang & Der Kiureghian
 /// (1995). μ₀ does not depend on the units of torque and time, so x lies in a space of three

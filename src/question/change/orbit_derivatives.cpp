@@ -1,14 +1,75 @@
 #include "question/change/orbit_derivatives.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
+#include <limits>
 
 #include "base/progress_part.hpp"
 #include "base/range_check.hpp"
-#include "general/attractors/cycle_derivatives.hpp"
+#include "general/attractors/found_cycle.hpp"
+#include "hybrid/disturbances.hpp"
 #include "question/axis.hpp"
+#include "question/change/derivatives.hpp"
 
 namespace gearlash {
 namespace {
+
+using hybrid::Event;
+using hybrid::EventKind;
+
+/// The least speed at which a guard is met, as a share of the highest.
+double least_share_of_speed(const hybrid::HybridSystem& system,
+                            const hybrid::PeriodicOrbit& orbit) {
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0.0;
+  double last = -1.0;
+  for (const Event& event : orbit.events) {
+    const bool is_chained = event.time == last;  // it has no delay of its own
+    last = event.time;
+    if (event.kind != EventKind::transition || is_chained) continue;
+    const hybrid::AffineMode& mode = system.mode(event.mode);
+    const double speed = std::abs(mode.transitions[event.transition].guard.normal.dot(
+        hybrid::velocity(mode.flow, event.before)));
+    least = std::min(least, speed);
+    most = std::max(most, speed);
+  }
+  return most > 0.0 ? least / most : 1.0;
+}
+
+bool has_multiplier_of_one(const drive::FoundCycle& cycle) {
+  const auto is_one = [](const std::complex<double>& multiplier) {
+    constexpr double near = 1e-6;
+    return std::abs(multiplier - 1.0) < near;
+  };
+  const std::vector<std::complex<double>>& all = cycle.orbit.multipliers;
+  return std::any_of(all.begin(), all.end(), is_one);
+}
+
+/// Why a cycle has no derivatives; empty if it has.
+std::string obstacle_to_slopes(const drive::SearchSetting& setting,
+                               const drive::FoundCycle& cycle) {
+  const drive::ReducedDrive& drive = setting.drive;
+  if (drive.sampling) return "the controller's ticks hold its period to multiples of their own";
+  if (drive.sensing.resolution > 0.0 || drive.sensing.resolution_of_speed > 0.0) {
+    return "the encoder's steps have no derivative";
+  }
+  if (!is_mirrored(drive) && (std::holds_alternative<drive::Sine>(drive.reference) ||
+                              std::holds_alternative<drive::Sine>(drive.load_torque))) {
+    return "a sine drives it";
+  }
+  const std::vector<Event>& events = cycle.orbit.events;
+  if (std::any_of(events.begin(), events.end(),
+                  [](const Event& event) { return event.kind == EventKind::settling; })) {
+    return "infinitely many bounces settle in each period";
+  }
+  constexpr double grazing = 1e-6;
+  if (least_share_of_speed(setting.system.system(), cycle.orbit) < grazing) {
+    return "it grazes a border between two motions";
+  }
+  if (has_multiplier_of_one(cycle)) return "a multiplier is 1: it is one of a family, or at a fold";
+  return "";
+}
 
 /// The largest cycle that is not unstable; nullptr if there is none.
 const drive::FoundCycle* cycle_in_practice(const Analysis& analysis) {
@@ -35,44 +96,25 @@ std::vector<double> presents_of(const Drive& drive, const std::vector<std::strin
   return presents;
 }
 
-std::optional<drive::CycleSlopes> slopes_by(const Drive& drive, const std::string& path,
-                                            double present, const drive::SearchSetting& setting,
-                                            const drive::FoundCycle& cycle) {
-  constexpr double share = 1e-3;
-  const double step = share * std::abs(present);
-  if (step == 0.0) return std::nullopt;
-  const Axis axis{.path = path};
-  const auto family = [&](double value) {
-    Drive changed = drive;
-    set_on(axis, changed, value);
-    require_none(faults(changed));
-    return reduce_settled(changed);
-  };
-  try {
-    return cycle_slopes(setting, cycle, family, present, step);
-  } catch (const InvalidInput&) {
-    return std::nullopt;  // the parameter is at the end of its permitted range
-  }
-}
-
-std::optional<double> slope_of(Quantity quantity, const drive::CycleSlopes& slopes, double period) {
-  const auto known = [](double slope) {
-    return std::isfinite(slope) ? std::optional(slope) : std::nullopt;
-  };
-  switch (quantity) {
-    case Quantity::amplitude:
-      return known(slopes.amplitude);
-    case Quantity::motor_amplitude:
-      return known(slopes.motor_amplitude);
-    case Quantity::center:
-      return known(slopes.center);
-    case Quantity::period:
-      return known(slopes.period);
-    case Quantity::frequency:
-      return known(-slopes.period / (period * period));
-    default:
-      return std::nullopt;
-  }
+/// The cycle of the drive with another value of a number, by Newton's method; none where the drive
+/// is unsound or the cycle has other events.
+Answer answer_beside(Drive drive, const Axis& axis, double value,
+                     const drive::SearchSetting& setting, const drive::FoundCycle& cycle) {
+  set_on(axis, drive, value);
+  if (!faults(drive).empty()) return {};
+  const drive::SearchSetting beside = drive::search_setting(reduce_settled(drive));
+  const auto orbit = neighbouring_orbit(beside.system, cycle.orbit, setting.system);
+  if (!orbit || orbit->events.size() != cycle.orbit.events.size()) return {};
+  const drive::FoundCycle found = measured(beside, *orbit, {});
+  Answer answer;
+  answer.cycles.resize(1);
+  Cycle& only = answer.cycles.front();
+  only.stability = Stability::stable;
+  only.amplitude = found.amplitude;
+  only.motor_amplitude = found.motor_amplitude;
+  only.center = found.center;
+  only.period = found.period();
+  return answer;
 }
 
 }  // namespace
@@ -100,11 +142,12 @@ Jacobian searched_derivatives(const Drive& drive, const Analysis& analysis,
   if (!jacobian.reason.empty()) return jacobian;
   for (std::size_t j = 0; j < paths.size(); ++j) {
     if (!progress.go_on(static_cast<double>(j) / static_cast<double>(paths.size()))) break;
-    const auto slopes = slopes_by(drive, paths[j], jacobian.present[j], setting, *cycle);
-    if (!slopes) continue;
-    for (std::size_t i = 0; i < quantities.size(); ++i) {
-      jacobian.slopes[i * paths.size() + j] = slope_of(quantities[i], *slopes, cycle->period());
-    }
+    const double present = jacobian.present[j];
+    if (present == 0.0) continue;
+    const Axis axis{.path = paths[j]};
+    set_slopes(jacobian, j,
+               [&](double value) { return answer_beside(drive, axis, value, setting, *cycle); },
+               {.unit = std::abs(present), .first = 1.0 / 128, .halvings = 12});
   }
   return jacobian;
 }

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "gearlash/sensitivity.hpp"
-#include "numeric/central_difference.hpp"
 #include "question/analyse.hpp"
 #include "question/axis.hpp"
+#include "question/change/derivatives.hpp"
 #include "question/change/orbit_derivatives.hpp"
 #include "question/change/target.hpp"
 #include "question/final_servo.hpp"
@@ -26,6 +25,12 @@ bool is_of_cycle(Quantity quantity) {
   constexpr std::array of_cycle = {Quantity::amplitude, Quantity::motor_amplitude, Quantity::period,
                                    Quantity::frequency, Quantity::growth_at_rest};
   return std::find(of_cycle.begin(), of_cycle.end(), quantity) != of_cycle.end();
+}
+
+Answer with_loop(const Drive& drive) {
+  Answer answer;
+  if (faults(drive).empty()) answer.loop = drive::loop_figures(reduce(drive));
+  return answer;
 }
 
 class UnitSlopes {
@@ -48,92 +53,64 @@ class UnitSlopes {
   }
 
  private:
-  using Slopes = std::vector<std::optional<double>>;
-
-  static Answer with_loop(const Drive& drive) {
-    Answer answer;
-    if (faults(drive).empty()) answer.loop = drive::loop_figures(reduce(drive));
-    return answer;
-  }
-
-  /// The linear loops beside the unit that the differences along an axis need: above and below by
-  /// one step, by two, …
-  std::vector<Answer> loops_beside(std::size_t axis) const {
-    std::vector<Answer> loops;
-    for (std::size_t k = 1; k <= difference_weights.size(); ++k) {
-      for (const double away : {static_cast<double>(k), -static_cast<double>(k)}) {
+  Jacobian loop_jacobian(std::vector<Quantity> quantities) const {
+    const Answer here = with_loop(unit_);
+    Jacobian jacobian{.quantities = std::move(quantities), .paths = paths_, .present = values_};
+    for (const Quantity quantity : jacobian.quantities) {
+      jacobian.values.push_back(here.value(quantity));
+    }
+    jacobian.slopes.resize(jacobian.quantities.size() * paths_.size());
+    for (std::size_t axis = 0; axis < paths_.size(); ++axis) {
+      const auto loop_at = [&](double value) {
         Drive drive = unit_;
-        set_on(task_.tuned[axis], drive, values_[axis] + away * step_on(axis));
-        loops.push_back(with_loop(drive));
-      }
+        set_on(task_.tuned[axis], drive, value);
+        return with_loop(drive);
+      };
+      set_slopes(jacobian, axis, loop_at, {.unit = std::abs(values_[axis])});
     }
-    return loops;
+    return jacobian;
   }
 
-  double step_on(std::size_t axis) const {
-    constexpr double share = 1e-3;
-    return share * values_[axis];
-  }
-
-  std::optional<double> loop_slope(Quantity quantity, std::size_t axis) const {
-    double slope = 0.0;
-    for (std::size_t k = 0; k < difference_weights.size(); ++k) {
-      const std::optional<double> high = loops_[axis][2 * k].value(quantity);
-      const std::optional<double> low = loops_[axis][2 * k + 1].value(quantity);
-      if (!high || !low) return std::nullopt;
-      slope += difference_weights[k] * (*high - *low) / step_on(axis);
-    }
-    return slope;
-  }
-
-  Slopes loop_slopes(Quantity quantity) const {
-    Slopes slopes;
-    for (std::size_t axis = 0; axis < values_.size(); ++axis) {
-      slopes.push_back(loop_slope(quantity, axis));
-    }
-    return slopes;
-  }
-
-  /// A number whose slopes along the axes are `factor` times those of a value; false where one is
-  /// missing.
-  bool add(std::vector<SlopedNumber>& to, double number, double factor,
-           const Slopes& slopes) const {
+  /// A number whose slopes along the axes are `factor` times those of a quantity; false where one
+  /// is missing.
+  bool add(std::vector<SlopedNumber>& to, double number, double factor, const Jacobian& of,
+           std::size_t quantity) const {
     SlopedNumber sloped{.value = number, .slopes = {}};
-    for (std::size_t axis = 0; axis < slopes.size(); ++axis) {
-      if (!slopes[axis]) return false;
-      sloped.slopes.push_back(factor * *slopes[axis] * per_position_[axis]);
+    for (std::size_t axis = 0; axis < values_.size(); ++axis) {
+      const std::optional<double> slope = of.slope(quantity, axis);
+      if (!slope) return false;
+      sloped.slopes.push_back(factor * *slope * per_position_[axis]);
     }
     to.push_back(std::move(sloped));
     return true;
   }
 
-  bool add_limit(const Bounds& permitted, double value, const Slopes& slopes) {
+  bool add_limit(const Bounds& permitted, const Jacobian& of, std::size_t quantity) {
     const auto at = [&](double limit, double sign) {
       if (!std::isfinite(limit)) return true;
       const double factor = sign / (limit == 0.0 ? 1.0 : std::abs(limit));
-      return add(numbers_.limited, factor * (value - limit), factor, slopes);
+      return add(numbers_.limited, factor * (*of.values[quantity] - limit), factor, of, quantity);
     };
     return at(permitted.high, 1.0) && at(permitted.low, -1.0);
   }
 
   bool add_loop() {
-    const Answer here = with_loop(unit_);
-    const std::optional<double> bandwidth = here.value(Quantity::bandwidth);
-    if (!bandwidth || !here.value(Quantity::phase_margin)) return false;
-    for (std::size_t axis = 0; axis < values_.size(); ++axis) loops_.push_back(loops_beside(axis));
-    if (!add(numbers_.sizes, -std::log(*bandwidth), -1.0 / *bandwidth,
-             loop_slopes(Quantity::bandwidth))) {
-      return false;
-    }
     std::vector<QuantityLimit> limits = task_.target.limits;
     std::erase_if(limits, [](const QuantityLimit& limit) { return !is_of_loop(limit.quantity); });
-    if (task_.least_phase_margin > 0.0) {
-      limits.insert(limits.begin(),
-                    {Quantity::phase_margin, {task_.least_phase_margin, Target::infinity}});
+    const double margin = task_.least_phase_margin;
+    limits.insert(limits.begin(), {Quantity::phase_margin,
+                                   {margin > 0.0 ? margin : -Target::infinity, Target::infinity}});
+    std::vector<Quantity> quantities = {Quantity::bandwidth};
+    for (const QuantityLimit& limit : limits) quantities.push_back(limit.quantity);
+    const Jacobian loop = loop_jacobian(std::move(quantities));
+    const std::optional<double> bandwidth = loop.values[0];
+    if (!bandwidth || !add(numbers_.sizes, -std::log(*bandwidth), -1.0 / *bandwidth, loop, 0)) {
+      return false;
     }
-    return std::all_of(limits.begin(), limits.end(), [&](const QuantityLimit& limit) {
-      return add_limit(limit.permitted, *here.value(limit.quantity), loop_slopes(limit.quantity));
-    });
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+      if (!loop.values[i + 1] || !add_limit(limits[i].permitted, loop, i + 1)) return false;
+    }
+    return true;
   }
 
   bool add_motion(Progress& progress) {
@@ -148,16 +125,13 @@ class UnitSlopes {
     const std::optional<Jacobian> jacobian = jacobian_of(quantities, asks_for_rest, progress);
     if (!jacobian) return false;
     for (std::size_t i = 0; i < limits.size(); ++i) {
-      if (!jacobian->values[i]) {  // it rests, which keeps every limit but one from below
-        if (limits[i].permitted.low > 0.0) return false;
-        numbers_.limited.push_back({-1.0, std::vector<double>(values_.size(), 0.0)});
+      const Bounds& permitted = limits[i].permitted;
+      if (jacobian->values[i]) {
+        if (!add_limit(permitted, *jacobian, i)) return false;
         continue;
       }
-      Slopes slopes;
-      for (std::size_t axis = 0; axis < values_.size(); ++axis) {
-        slopes.push_back(jacobian->slope(i, axis));
-      }
-      if (!add_limit(limits[i].permitted, *jacobian->values[i], slopes)) return false;
+      if (permitted.low > 0.0) return false;  // it rests, which keeps every limit but this
+      numbers_.limited.push_back({-1.0, std::vector<double>(values_.size(), 0.0)});
     }
     return true;
   }
@@ -183,8 +157,7 @@ class UnitSlopes {
   const TuneTask& task_;
   std::vector<std::string> paths_;
   std::vector<double> values_;
-  std::vector<double> per_position_;        ///< of the values, from 0 to 1 along the axis
-  std::vector<std::vector<Answer>> loops_;  ///< beside the unit, for each axis
+  std::vector<double> per_position_;  ///< of the values, from 0 to 1 along the axis
   SlopedNumbers numbers_;
 };
 

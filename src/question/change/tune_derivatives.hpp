@@ -16,11 +16,9 @@ bool may_have_slopes(const TuneTask& task);
 
 /// Of one unit with tuned values: −ln of the bandwidth as the size; the phase margin that is asked
 /// for and each limit of the target as a share of that limit, the growth at rest of a drive with a
-/// closed form as the limit of hunting. Derivatives are along the axes, each from 0 to 1: of the
-/// cycle by its variational equations or in closed form (derivatives()), of the linear loop's
-/// figures, which are exact, by central differences of sixth order over thousandths of the value.
-/// Empty where any of them has none: a loop that is not stable, irregular motion, encoder steps, a
-/// computer's ticks, values of 0. Precondition: may_have_slopes().
+/// closed form as the limit of hunting. Derivatives, by differences(), are along the axes, each
+/// from 0 to 1. Empty where any of them has none: a loop that is not stable, irregular motion,
+/// encoder steps, a computer's ticks, values of 0. Precondition: may_have_slopes().
 std::optional<SlopedNumbers> slopes_of_unit(const Drive& unit, const TuneTask& task,
                                             Progress& progress);
 
