@@ -236,7 +236,8 @@ void BoundaryFinder::divide(const Place& from, const Place& to, MapCurve& points
 }
 
 /// The boundary on the perpendicular through the chord's middle, at most half the chord's length
-/// away. The region is on the left of the chord.
+/// away, or a tenth of the axes: the tip of a sharp corner may lie far from a short chord. The
+/// region is on the left of the chord.
 std::optional<Place> BoundaryFinder::across_middle(const Place& from, const Place& to) const {
   const Place middle{0.5 * (from.along + to.along), 0.5 * (from.up + to.up)};
   const Side side = asked(point_at(middle));
@@ -246,8 +247,11 @@ std::optional<Place> BoundaryFinder::across_middle(const Place& from, const Plac
     return Place{std::clamp(middle.along + turn * share * (to.up - from.up), 0.0, 1.0),
                  std::clamp(middle.up - turn * share * (to.along - from.along), 0.0, 1.0)};
   };
+  constexpr double farthest_tip = 0.1;  // beyond half the chord
+  const double length = std::hypot(to.along - from.along, to.up - from.up);
   double near = 0.0;
-  for (const double far : {1.0 / 64.0, 1.0 / 16.0, 1.0 / 4.0, 1.0 / 2.0}) {
+  for (const double far : {1.0 / 64.0, 1.0 / 16.0, 1.0 / 4.0, 1.0 / 2.0, 1.0, 2.0, 4.0}) {
+    if (far > 0.5 && far * length > farthest_tip) break;
     const Side there = asked(point_at(at(far)));
     if (there == Side::unknown) return std::nullopt;
     if (there == side) {

@@ -32,6 +32,10 @@ struct CurveAccuracy {
   double shortest_chord = 2e-3;  ///< shorter chords are not divided
 };
 
+/// Accurate enough for a picture: 2⁻²⁴ of the plane.
+inline constexpr CurveAccuracy picture_accuracy{
+    .halvings = 24, .straightness = 3e-4, .shortest_chord = 4e-3};
+
 /// The boundary of the region of inside places, with the region on its left (x to the right, y
 /// upwards).
 ///

@@ -1,26 +1,31 @@
-#include "question/map/motion_regions.hpp"
+#include "question/map/map_regions.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <unordered_map>
 #include <utility>
 
 #include "base/on_threads.hpp"
 #include "base/shared_progress.hpp"
+#include "question/change/target.hpp"
 
 namespace gearlash {
 namespace {
 
-constexpr std::array motion_kinds = {MotionKind::rests, MotionKind::hunts_if_disturbed,
-                                     MotionKind::hunts, MotionKind::runs_away,
-                                     MotionKind::not_known};
+constexpr std::array region_order = {
+    PlaceKind::met,   PlaceKind::missed,    PlaceKind::rests,    PlaceKind::hunts_if_disturbed,
+    PlaceKind::hunts, PlaceKind::runs_away, PlaceKind::not_known};
+
+/// The kind of a place, by a fresh answer.
+using KindAt = std::function<PlaceKind(const MapPoint&, Progress&)>;
 
 /// The kinds of the points and where they change between two of them.
 class Kinds {
  public:
-  Kinds(const Grid& grid, const Table& table) : x_(grid.axes[1]), y_(grid.axes[0]) {
-    for (const Verdict verdict : table.verdicts()) corners_.push_back(kind_of(verdict));
+  Kinds(const Grid& grid, std::span<const PlaceKind> points)
+      : x_(grid.axes[1]), y_(grid.axes[0]), corners_(points) {
     for (std::size_t row = 0; row < y_.values.size(); ++row) {
       for (std::size_t column = 0; column < x_.values.size(); ++column) {
         const std::size_t here = point(column, row);
@@ -35,24 +40,19 @@ class Kinds {
     for (std::size_t i = 0; i < edges_.size(); ++i) number_[id(edges_[i])] = i;
   }
 
-  bool has(MotionKind kind) const {
-    return std::find(corners_.begin(), corners_.end(), kind) != corners_.end();
-  }
-
-  /// Locates the changes by searches.
-  void locate(const Family& family, Progress& progress) {
+  /// Locates the changes by fresh answers.
+  void locate(const KindAt& kind_at, Progress& progress) {
     SharedProgress shared(progress, std::max<std::size_t>(1, edges_.size()));
     on_threads(0, edges_.size(), [&](std::size_t i) {
-      edges_[i].change = change_on(edges_[i], family, shared);
+      edges_[i].change = change_on(edges_[i], kind_at, shared);
       shared.finish(1);
     });
   }
 
-  /// The kind at a place on a line of the grid, or at a cell's middle; none beyond the map.
-  std::optional<MotionKind> at(const MapPoint& place) const {
+  /// The kind at a place of the map on a line of the grid, or at a cell's middle.
+  PlaceKind at(const MapPoint& place) const {
     const auto [left, right] = around(x_, place.x);
     const auto [below, above] = around(y_, place.y);
-    if (right >= x_.values.size() || above >= y_.values.size()) return std::nullopt;
     if (left == right && below == above) return corners_[point(left, below)];
     if (below == above) return on_edge({left, below, true}, position_on(x_, place.x));
     if (left == right) return on_edge({left, below, false}, position_on(y_, place.y));
@@ -77,45 +77,40 @@ class Kinds {
     return point(edge.column, edge.row) + (edge.is_along_x ? 1 : x_.values.size());
   }
 
-  /// Numbers of the values on either side, the same of a value itself; beyond the axis both are
-  /// its length.
+  /// Numbers of the values on either side, the same of a value itself.
   static std::pair<std::size_t, std::size_t> around(const Axis& axis, double value) {
-    const std::size_t count = axis.values.size();
     const auto above = static_cast<std::size_t>(
         std::lower_bound(axis.values.begin(), axis.values.end(), value) - axis.values.begin());
-    if (above == count) return {count, count};
-    if (axis.values[above] == value) return {above, above};
-    return above == 0 ? std::pair{count, count} : std::pair{above - 1, above};
+    return {axis.values[above] == value ? above : above - 1, above};
   }
 
-  MotionKind on_edge(const Edge& edge, double position) const {
-    const MotionKind first = corners_[point(edge.column, edge.row)];
+  PlaceKind on_edge(const Edge& edge, double position) const {
+    const PlaceKind first = corners_[point(edge.column, edge.row)];
     const auto known = number_.find(id(edge));
     if (known == number_.end()) return first;
     return position < edges_[known->second].change ? first : corners_[end_of(edge)];
   }
 
-  double change_on(const Edge& edge, const Family& family, SharedProgress& progress) const {
+  double change_on(const Edge& edge, const KindAt& kind_at, SharedProgress& progress) const {
     constexpr double near = 1.0 / 400.0;
     const Axis& axis = edge.is_along_x ? x_ : y_;
     const std::size_t first = edge.is_along_x ? edge.column : edge.row;
-    const MotionKind kind = corners_[point(edge.column, edge.row)];
+    const PlaceKind kind = corners_[point(edge.column, edge.row)];
     double low = position_on(axis, axis.values[first]);
     double high = position_on(axis, axis.values[first + 1]);
     while (high - low > near && !progress.is_stopped()) {
       const double middle = 0.5 * (low + high);
       const double value = value_at(axis, middle);
-      const std::array place = {edge.is_along_x ? y_.values[edge.row] : value,
-                                edge.is_along_x ? value : x_.values[edge.column]};
-      const Verdict there = answer_at(family, place, Quantity::verdict, progress).verdict;
-      (kind_of(there) == kind ? low : high) = middle;
+      const MapPoint place{edge.is_along_x ? value : x_.values[edge.column],
+                           edge.is_along_x ? y_.values[edge.row] : value};
+      (kind_at(place, progress) == kind ? low : high) = middle;
     }
     return 0.5 * (low + high);
   }
 
   const Axis& x_;
   const Axis& y_;
-  std::vector<MotionKind> corners_;
+  std::span<const PlaceKind> corners_;
   std::vector<Edge> edges_;
   std::unordered_map<std::size_t, std::size_t> number_;
 };
@@ -133,68 +128,128 @@ Axis widened(const Axis& axis) {
   return wide;
 }
 
+bool contains(const Axis& axis, double value) {
+  return value >= axis.values.front() && value <= axis.values.back();
+}
+
+PlaceKind kind_at_place(const Family& family, const std::optional<Target>& target,
+                        const MapPoint& place, Progress& progress) {
+  PlaceKind kind{};
+  AskedOfRows asked = asked_for_kinds(family, target, {&kind, 1});
+  asked.one_by_one = asked.whole;
+  const std::array values = {place.y, place.x};
+  evaluate(family, rows_of(std::span<const double>(values), 2), asked, progress);
+  return kind;
+}
+
+/// The sides of the points of the widened axes: all beyond the map are outside.
+std::vector<Side> widened_sides(std::span<const PlaceKind> points, std::size_t width,
+                                PlaceKind kind) {
+  std::vector<Side> sides((points.size() / width + 2) * (width + 2), Side::outside);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i] == kind) sides[(i / width + 1) * (width + 2) + i % width + 1] = Side::inside;
+  }
+  return sides;
+}
+
 }  // namespace
 
-MotionKind kind_of(Verdict verdict) {
+PlaceKind kind_of(Verdict verdict) {
   switch (verdict) {
     case Verdict::cannot_hunt:
     case Verdict::comes_to_rest:
-      return MotionKind::rests;
+      return PlaceKind::rests;
     case Verdict::hunts_if_disturbed:
-      return MotionKind::hunts_if_disturbed;
+      return PlaceKind::hunts_if_disturbed;
     case Verdict::hunts:
     case Verdict::hunts_irregularly:
     case Verdict::forced:
     case Verdict::undamped:
-      return MotionKind::hunts;
+      return PlaceKind::hunts;
     case Verdict::grows_without_bound:
     case Verdict::runs_away:
     case Verdict::runs_away_if_disturbed:
-      return MotionKind::runs_away;
+      return PlaceKind::runs_away;
     case Verdict::undecided:
       break;
   }
-  return MotionKind::not_known;
+  return PlaceKind::not_known;
 }
 
-std::string_view name_of(MotionKind kind) {
+std::string_view name_of(PlaceKind kind) {
   switch (kind) {
-    case MotionKind::rests:
+    case PlaceKind::rests:
       return "comes to rest";
-    case MotionKind::hunts_if_disturbed:
+    case PlaceKind::hunts_if_disturbed:
       return "hunts if disturbed";
-    case MotionKind::hunts:
+    case PlaceKind::hunts:
       return "hunts";
-    case MotionKind::runs_away:
+    case PlaceKind::runs_away:
       return "runs away";
-    case MotionKind::not_known:
+    case PlaceKind::met:
+      return "met";
+    case PlaceKind::missed:
+      return "missed";
+    case PlaceKind::not_known:
       break;
   }
   return "not known";
 }
 
-std::vector<MotionRegion> motion_regions(const Grid& grid, const Table& table, Progress& progress) {
-  Kinds map(grid, table);
-  map.locate(Family(grid), progress);
-  const Axis x = widened(grid.axes[1]);
-  const Axis y = widened(grid.axes[0]);
-  std::vector<MotionRegion> regions;
-  for (const MotionKind kind : motion_kinds) {
-    if (!map.has(kind)) continue;
+PlaceKind kind_of(const Target& target, const Answer& answer) {
+  if (!is_known(target, answer)) return PlaceKind::not_known;
+  return is_met(target, answer) ? PlaceKind::met : PlaceKind::missed;
+}
+
+AskedOfRows asked_for_kinds(const Family& family, const std::optional<Target>& target,
+                            std::span<PlaceKind> kinds) {
+  AskedOfRows asked{.take = [&target, kinds](std::size_t row, const Answer* answer) {
+    if (answer == nullptr) return;
+    kinds[row] = target ? kind_of(*target, *answer) : kind_of(answer->verdict);
+  }};
+  if (!target) return asked;
+  asked.wanted = wanted_for(*target, family.base());
+  asked.whole = !is_of_boxes(*target);
+  return asked;
+}
+
+bool has_regions(const Grid& grid) {
+  return std::all_of(grid.axes.begin(), grid.axes.end(), [&](const Axis& axis) {
+    return axis.values.size() > 1 && std::isfinite(axis.values.back()) &&
+           parameter_of(axis, grid.drive)->choices.empty();
+  });
+}
+
+std::vector<MapRegion> regions_of(const Grid& grid, std::span<const PlaceKind> points,
+                                  const std::optional<Target>& target, Progress& progress) {
+  const Family family(grid);
+  const KindAt kind_at = [&](const MapPoint& place, Progress& heard) {
+    return kind_at_place(family, target, place, heard);
+  };
+  Kinds kinds(grid, points);
+  const bool is_searched = family.engines().search;
+  if (is_searched) kinds.locate(kind_at, progress);
+  const Axis& x = grid.axes[1];
+  const Axis& y = grid.axes[0];
+  std::vector<MapRegion> regions;
+  for (const PlaceKind kind : region_order) {
+    if (std::find(points.begin(), points.end(), kind) == points.end()) continue;
     const auto side_at = [&](const MapPoint& place) {
-      return map.at(place) == kind ? Side::inside : Side::outside;
+      if (!contains(x, place.x) || !contains(y, place.y)) return Side::outside;
+      const PlaceKind there = is_searched ? kinds.at(place) : kind_at(place, no_progress());
+      return there == kind ? Side::inside : Side::outside;
     };
-    std::vector<Side> corners;
-    for (const double up : y.values) {
-      for (const double along : x.values) corners.push_back(side_at({along, up}));
-    }
     constexpr CurveAccuracy straight_in_cells{.shortest_chord = 2.0};
-    regions.push_back({kind, boundary_of_region(x, y, corners, side_at, straight_in_cells)});
+    regions.push_back(
+        {kind,
+         boundary_of_region(widened(x), widened(y), widened_sides(points, x.values.size(), kind),
+                            side_at, is_searched ? straight_in_cells : picture_accuracy,
+                            is_searched ? no_progress() : progress)});
   }
   return regions;
 }
 
-std::vector<MapCurve> borders_of(const std::vector<MotionRegion>& regions, const Grid& grid) {
+std::vector<MapCurve> borders_of(const std::vector<MapRegion>& regions, const Grid& grid) {
   constexpr double rounding = 1e-9;
   const auto is_at_edge = [&](std::size_t axis, double one, double other) {
     const double at = position_on(grid.axes[axis], one);
