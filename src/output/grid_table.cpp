@@ -102,8 +102,7 @@ RowCount work_out(GridTable& table, Progress& progress) {
 void add_borders(GridTable& table, Progress& progress) {
   table.hunting_boundary =
       hunting_boundary(table.grid, table.table[Quantity::growth_at_rest], progress);
-  if (!progress.go_on(0.0)) return;
-  table.dissipative_boundary = dissipative_boundary(table.grid, progress);
+  if (progress.go_on(0.0)) table.dissipative_boundary = dissipative_boundary(table.grid, progress);
   const bool wants_regions = table.target || Family(table.grid).engines().search;
   if (!wants_regions || !has_regions(table.grid)) return;
   std::vector<PlaceKind> kinds = table.kinds;

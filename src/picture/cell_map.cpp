@@ -86,8 +86,8 @@ std::string draw_cell_map(const CellMap& map, PictureFormat format) {
     }
     if (!cells.frames.is_empty()) {
       layers.push_back(fmt::format(
-          "${}_frames using 1:2:(0.46):(0.46) with boxxyerror fill empty border linecolor "
-          "rgb '#1b7837' linewidth 3 notitle",
+          "${}_frames using 1:2:(0.46):(0.46) with boxxyerror fill empty linecolor rgb '#1b7837' "
+          "linewidth 3 notitle",
           name));
     }
     if (layers.empty()) layers.push_back("1/0 notitle");  // keeps the axes

@@ -152,6 +152,28 @@ std::vector<Side> widened_sides(std::span<const PlaceKind> points, std::size_t w
   return sides;
 }
 
+/// The regions whose places on the map have these kinds.
+std::vector<MapRegion> outlined(const Grid& grid, std::span<const PlaceKind> points,
+                                const std::function<PlaceKind(const MapPoint&)>& kind_at,
+                                const CurveAccuracy& accuracy, Progress& progress) {
+  const Axis& x = grid.axes[1];
+  const Axis& y = grid.axes[0];
+  const Axis wide_x = widened(x);
+  const Axis wide_y = widened(y);
+  std::vector<MapRegion> regions;
+  for (const PlaceKind kind : region_order) {
+    if (std::find(points.begin(), points.end(), kind) == points.end()) continue;
+    const auto side_at = [&](const MapPoint& place) {
+      const bool is_on_map = contains(x, place.x) && contains(y, place.y);
+      return is_on_map && kind_at(place) == kind ? Side::inside : Side::outside;
+    };
+    const std::vector<Side> sides = widened_sides(points, x.values.size(), kind);
+    regions.push_back(
+        {kind, boundary_of_region(wide_x, wide_y, sides, side_at, accuracy, progress)});
+  }
+  return regions;
+}
+
 }  // namespace
 
 PlaceKind kind_of(Verdict verdict) {
@@ -226,27 +248,18 @@ std::vector<MapRegion> regions_of(const Grid& grid, std::span<const PlaceKind> p
   const KindAt kind_at = [&](const MapPoint& place, Progress& heard) {
     return kind_at_place(family, target, place, heard);
   };
-  Kinds kinds(grid, points);
-  const bool is_searched = family.engines().search;
-  if (is_searched) kinds.locate(kind_at, progress);
-  const Axis& x = grid.axes[1];
-  const Axis& y = grid.axes[0];
-  std::vector<MapRegion> regions;
-  for (const PlaceKind kind : region_order) {
-    if (std::find(points.begin(), points.end(), kind) == points.end()) continue;
-    const auto side_at = [&](const MapPoint& place) {
-      if (!contains(x, place.x) || !contains(y, place.y)) return Side::outside;
-      const PlaceKind there = is_searched ? kinds.at(place) : kind_at(place, no_progress());
-      return there == kind ? Side::inside : Side::outside;
-    };
-    constexpr CurveAccuracy straight_in_cells{.shortest_chord = 2.0};
-    regions.push_back(
-        {kind,
-         boundary_of_region(widened(x), widened(y), widened_sides(points, x.values.size(), kind),
-                            side_at, is_searched ? straight_in_cells : picture_accuracy,
-                            is_searched ? no_progress() : progress)});
+  if (!family.engines().search) {
+    std::vector<MapRegion> regions = outlined(
+        grid, points, [&](const MapPoint& place) { return kind_at(place, no_progress()); },
+        picture_accuracy, progress);
+    if (progress.go_on(1.0)) return regions;
   }
-  return regions;
+  Kinds kinds(grid, points);
+  kinds.locate(kind_at, progress);
+  constexpr CurveAccuracy straight_in_cells{.shortest_chord = 2.0};
+  return outlined(
+      grid, points, [&](const MapPoint& place) { return kinds.at(place); }, straight_in_cells,
+      no_progress());
 }
 
 std::vector<MapCurve> borders_of(const std::vector<MapRegion>& regions, const Grid& grid) {

@@ -48,7 +48,7 @@ bool has_regions(const Grid& grid);
 /// gives them. Borders are located by fresh answers. In closed form they are found as by
 /// boundary_of_region(), to 2⁻²⁴ of the axes. If drives are searched, a border is located where it
 /// crosses the lines of the grid, to 1/400 of the axis; within a cell it is straight. Stopped by
-/// `progress`, it lies half-way there, and in closed form outlines are missing. Precondition:
+/// `progress`, it is straight too, and lies half-way between points. Precondition:
 /// has_regions(); the axes are y, x.
 std::vector<MapRegion> regions_of(const Grid& grid, std::span<const PlaceKind> points,
                                   const std::optional<Target>& target,

@@ -239,15 +239,14 @@ TEST(EdgeMapRegions, OfOneKindAreTheMap) {
   EXPECT_TRUE(borders_of(regions, grid).empty());
 }
 
-TEST(EdgeMapRegions, StoppedTheirBordersLieHalfWayOrAreMissing) {
-  test::Stopping stop;
-  const std::vector<MapRegion> closed = regions_of(grid_of_servos(), {}, stop);
-  ASSERT_EQ(closed.size(), 2U);
-  EXPECT_TRUE(closed[0].outlines.empty());
-  const Grid grid = grid_of_searched_drives();
-  const std::vector<MapRegion> searched = regions_of(grid, {}, stop);
-  ASSERT_EQ(searched.size(), 2U);
-  EXPECT_NEAR(area_of(searched[0], grid) + area_of(searched[1], grid), 1.0, 1e-9);
+TEST(EdgeMapRegions, StoppedTheirBordersLieHalfWay) {
+  for (const Grid& grid : {grid_of_servos(), grid_of_searched_drives()}) {
+    test::Stopping stop;
+    const std::vector<MapRegion> regions = regions_of(grid, {}, stop);
+    ASSERT_EQ(regions.size(), 2U);
+    EXPECT_GT(area_of(regions[0], grid), 0.1);
+    EXPECT_NEAR(area_of(regions[0], grid) + area_of(regions[1], grid), 1.0, 1e-9);
+  }
 }
 
 }  // namespace
