@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <unordered_map>
+#include <map>
+#include <mutex>
 #include <utility>
 
-#include "base/on_threads.hpp"
+#include "base/progress_part.hpp"
 #include "base/shared_progress.hpp"
+#include "base/special_numbers.hpp"
 #include "question/change/target.hpp"
 
 namespace gearlash {
@@ -17,102 +18,37 @@ namespace {
 constexpr std::array region_order = {
     PlaceKind::met,   PlaceKind::missed,    PlaceKind::rests,    PlaceKind::hunts_if_disturbed,
     PlaceKind::hunts, PlaceKind::runs_away, PlaceKind::not_known};
+constexpr double longest_in_cells = 2.0;  ///< shares of the axes: no chord is divided
 
-/// The kind of a place, by a fresh answer.
-using KindAt = std::function<PlaceKind(const MapPoint&, Progress&)>;
-
-/// The kinds of the points and where they change between two of them.
-class Kinds {
+/// The kinds of places by fresh answers, each judged once although two regions ask. For several
+/// threads.
+class PlaceJudge {
  public:
-  Kinds(const Grid& grid, std::span<const PlaceKind> points)
-      : x_(grid.axes[1]), y_(grid.axes[0]), corners_(points) {
-    for (std::size_t row = 0; row < y_.values.size(); ++row) {
-      for (std::size_t column = 0; column < x_.values.size(); ++column) {
-        const std::size_t here = point(column, row);
-        if (column + 1 < x_.values.size() && corners_[here] != corners_[here + 1]) {
-          edges_.push_back({column, row, true});
-        }
-        if (row + 1 < y_.values.size() && corners_[here] != corners_[here + x_.values.size()]) {
-          edges_.push_back({column, row, false});
-        }
-      }
+  PlaceJudge(const Family& family, const std::optional<Target>& target, SerialProgress& progress)
+      : family_(family), target_(target), progress_(progress) {}
+
+  PlaceKind kind_at(const MapPoint& place) {
+    {
+      const std::scoped_lock lock(using_);
+      const auto known = known_.find({place.x, place.y});
+      if (known != known_.end()) return known->second;
     }
-    for (std::size_t i = 0; i < edges_.size(); ++i) number_[id(edges_[i])] = i;
-  }
-
-  /// Locates the changes by fresh answers.
-  void locate(const KindAt& kind_at, Progress& progress) {
-    SharedProgress shared(progress, std::max<std::size_t>(1, edges_.size()));
-    on_threads(0, edges_.size(), [&](std::size_t i) {
-      edges_[i].change = change_on(edges_[i], kind_at, shared);
-      shared.finish(1);
-    });
-  }
-
-  /// The kind at a place of the map on a line of the grid, or at a cell's middle.
-  PlaceKind at(const MapPoint& place) const {
-    const auto [left, right] = around(x_, place.x);
-    const auto [below, above] = around(y_, place.y);
-    if (left == right && below == above) return corners_[point(left, below)];
-    if (below == above) return on_edge({left, below, true}, position_on(x_, place.x));
-    if (left == right) return on_edge({left, below, false}, position_on(y_, place.y));
-    return corners_[point(left, below)];
+    PlaceKind kind{};
+    AskedOfRows asked = asked_for_kinds(family_, target_, {&kind, 1});
+    asked.one_by_one = asked.whole;
+    const std::array values = {place.y, place.x};
+    ProgressPart part(progress_, not_a_number, not_a_number);
+    evaluate(family_, rows_of(std::span<const double>(values), values.size()), asked, part);
+    const std::scoped_lock lock(using_);
+    return known_[{place.x, place.y}] = kind;
   }
 
  private:
-  struct Edge {
-    std::size_t column = 0;
-    std::size_t row = 0;
-    bool is_along_x = true;
-    double change = 0.0;  ///< position on the axis
-  };
-
-  std::size_t point(std::size_t column, std::size_t row) const {
-    return row * x_.values.size() + column;
-  }
-  std::size_t id(const Edge& edge) const {
-    return 2 * point(edge.column, edge.row) + (edge.is_along_x ? 0 : 1);
-  }
-  std::size_t end_of(const Edge& edge) const {
-    return point(edge.column, edge.row) + (edge.is_along_x ? 1 : x_.values.size());
-  }
-
-  /// Numbers of the values on either side, the same of a value itself.
-  static std::pair<std::size_t, std::size_t> around(const Axis& axis, double value) {
-    const auto above = static_cast<std::size_t>(
-        std::lower_bound(axis.values.begin(), axis.values.end(), value) - axis.values.begin());
-    return {axis.values[above] == value ? above : above - 1, above};
-  }
-
-  PlaceKind on_edge(const Edge& edge, double position) const {
-    const PlaceKind first = corners_[point(edge.column, edge.row)];
-    const auto known = number_.find(id(edge));
-    if (known == number_.end()) return first;
-    return position < edges_[known->second].change ? first : corners_[end_of(edge)];
-  }
-
-  double change_on(const Edge& edge, const KindAt& kind_at, SharedProgress& progress) const {
-    constexpr double near = 1.0 / 400.0;
-    const Axis& axis = edge.is_along_x ? x_ : y_;
-    const std::size_t first = edge.is_along_x ? edge.column : edge.row;
-    const PlaceKind kind = corners_[point(edge.column, edge.row)];
-    double low = position_on(axis, axis.values[first]);
-    double high = position_on(axis, axis.values[first + 1]);
-    while (high - low > near && !progress.is_stopped()) {
-      const double middle = 0.5 * (low + high);
-      const double value = value_at(axis, middle);
-      const MapPoint place{edge.is_along_x ? value : x_.values[edge.column],
-                           edge.is_along_x ? y_.values[edge.row] : value};
-      (kind_at(place, progress) == kind ? low : high) = middle;
-    }
-    return 0.5 * (low + high);
-  }
-
-  const Axis& x_;
-  const Axis& y_;
-  std::span<const PlaceKind> corners_;
-  std::vector<Edge> edges_;
-  std::unordered_map<std::size_t, std::size_t> number_;
+  const Family& family_;
+  const std::optional<Target>& target_;
+  SerialProgress& progress_;
+  std::mutex using_;
+  std::map<std::pair<double, double>, PlaceKind> known_;
 };
 
 /// The axis with a value on either side of it.
@@ -132,16 +68,6 @@ bool contains(const Axis& axis, double value) {
   return value >= axis.values.front() && value <= axis.values.back();
 }
 
-PlaceKind kind_at_place(const Family& family, const std::optional<Target>& target,
-                        const MapPoint& place, Progress& progress) {
-  PlaceKind kind{};
-  AskedOfRows asked = asked_for_kinds(family, target, {&kind, 1});
-  asked.one_by_one = asked.whole;
-  const std::array values = {place.y, place.x};
-  evaluate(family, rows_of(std::span<const double>(values), 2), asked, progress);
-  return kind;
-}
-
 /// The sides of the points of the widened axes: all beyond the map are outside.
 std::vector<Side> widened_sides(std::span<const PlaceKind> points, std::size_t width,
                                 PlaceKind kind) {
@@ -152,26 +78,51 @@ std::vector<Side> widened_sides(std::span<const PlaceKind> points, std::size_t w
   return sides;
 }
 
-/// The regions whose places on the map have these kinds.
 std::vector<MapRegion> outlined(const Grid& grid, std::span<const PlaceKind> points,
-                                const std::function<PlaceKind(const MapPoint&)>& kind_at,
-                                const CurveAccuracy& accuracy, Progress& progress) {
+                                PlaceJudge& judge, const CurveAccuracy& accuracy,
+                                Progress& progress) {
   const Axis& x = grid.axes[1];
   const Axis& y = grid.axes[0];
   const Axis wide_x = widened(x);
   const Axis wide_y = widened(y);
   std::vector<MapRegion> regions;
-  for (const PlaceKind kind : region_order) {
+  for (std::size_t i = 0; i < region_order.size(); ++i) {
+    const PlaceKind kind = region_order[i];
     if (std::find(points.begin(), points.end(), kind) == points.end()) continue;
     const auto side_at = [&](const MapPoint& place) {
       const bool is_on_map = contains(x, place.x) && contains(y, place.y);
-      return is_on_map && kind_at(place) == kind ? Side::inside : Side::outside;
+      return is_on_map && judge.kind_at(place) == kind ? Side::inside : Side::outside;
     };
     const std::vector<Side> sides = widened_sides(points, x.values.size(), kind);
-    regions.push_back(
-        {kind, boundary_of_region(wide_x, wide_y, sides, side_at, accuracy, progress)});
+    ProgressPart part(progress, i, region_order.size());
+    MapRegion region{kind, boundary_of_region(wide_x, wide_y, sides, side_at, accuracy, part)};
+    for (MapCurve& outline : region.outlines) {
+      for (MapPoint& point : outline) {
+        point.x = std::clamp(point.x, x.values.front(), x.values.back());
+        point.y = std::clamp(point.y, y.values.front(), y.values.back());
+      }
+    }
+    regions.push_back(std::move(region));
   }
   return regions;
+}
+
+/// In closed form that of pictures. Searches are few: to 1/400 of the axes on the grid's lines.
+CurveAccuracy accuracy_of(const Grid& grid, const EnginesNeeded& engines) {
+  CurveAccuracy accuracy = picture_accuracy;
+  accuracy.is_midway = true;
+  if (!engines.search) return accuracy;
+  constexpr double located = 1.0 / 400.0;
+  double widest = located;
+  for (const Axis& axis : grid.axes) {
+    for (std::size_t i = 0; i + 1 < axis.values.size(); ++i) {
+      widest = std::max(widest,
+                        position_on(axis, axis.values[i + 1]) - position_on(axis, axis.values[i]));
+    }
+  }
+  accuracy.halvings = static_cast<int>(std::ceil(std::log2(widest / located)));
+  accuracy.shortest_chord = longest_in_cells;
+  return accuracy;
 }
 
 }  // namespace
@@ -245,21 +196,14 @@ bool has_regions(const Grid& grid) {
 std::vector<MapRegion> regions_of(const Grid& grid, std::span<const PlaceKind> points,
                                   const std::optional<Target>& target, Progress& progress) {
   const Family family(grid);
-  const KindAt kind_at = [&](const MapPoint& place, Progress& heard) {
-    return kind_at_place(family, target, place, heard);
-  };
-  if (!family.engines().search) {
-    std::vector<MapRegion> regions = outlined(
-        grid, points, [&](const MapPoint& place) { return kind_at(place, no_progress()); },
-        picture_accuracy, progress);
-    if (progress.go_on(1.0)) return regions;
-  }
-  Kinds kinds(grid, points);
-  kinds.locate(kind_at, progress);
-  constexpr CurveAccuracy straight_in_cells{.shortest_chord = 2.0};
-  return outlined(
-      grid, points, [&](const MapPoint& place) { return kinds.at(place); }, straight_in_cells,
-      no_progress());
+  SerialProgress heard(progress);
+  PlaceJudge judge(family, target, heard);
+  std::vector<MapRegion> regions =
+      outlined(grid, points, judge, accuracy_of(grid, family.engines()), heard);
+  if (heard.go_on(1.0)) return regions;
+  return outlined(grid, points, judge,
+                  {.halvings = 0, .shortest_chord = longest_in_cells, .is_midway = true},
+                  no_progress());
 }
 
 std::vector<MapCurve> borders_of(const std::vector<MapRegion>& regions, const Grid& grid) {

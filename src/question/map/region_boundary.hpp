@@ -30,6 +30,9 @@ struct CurveAccuracy {
   int halvings = 60;             ///< bisections along the line searched for the boundary
   double straightness = 2e-4;    ///< about the largest distance of the boundary from its chord
   double shortest_chord = 2e-3;  ///< shorter chords are not divided
+  /// Points lie between the last places inside and outside, so that two regions side by side have
+  /// the same border, found at the same places. Else they lie inside.
+  bool is_midway = false;
 };
 
 /// Accurate enough for a picture: 2⁻²⁴ of the plane.
