@@ -107,11 +107,12 @@ std::vector<MapRegion> outlined(const Grid& grid, std::span<const PlaceKind> poi
   return regions;
 }
 
-/// In closed form that of pictures. Searches are few: to 1/400 of the axes on the grid's lines.
+/// With plastic contact that of pictures. Searches are few: to 1/400 of the axes on the grid's
+/// lines.
 CurveAccuracy accuracy_of(const Grid& grid, const EnginesNeeded& engines) {
   CurveAccuracy accuracy = picture_accuracy;
   accuracy.is_midway = true;
-  if (!engines.search) return accuracy;
+  if (!engines.search && !engines.bounces) return accuracy;
   constexpr double located = 1.0 / 400.0;
   double widest = located;
   for (const Axis& axis : grid.axes) {

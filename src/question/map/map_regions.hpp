@@ -45,12 +45,12 @@ struct MapRegion {
 bool has_regions(const Grid& grid);
 
 /// The regions of a map, by kind. `points`: the kinds of the grid's points, as asked_for_kinds()
-/// gives them. Borders are located by fresh answers, once for both sides. In closed form they are
-/// found as by boundary_of_region(), to 2⁻²⁴ of the axes. If drives are searched, a border is
-/// located where it crosses the lines of the grid, to 1/400 of the axes; within a cell it is
-/// straight. Stopped by `progress`, it is straight too, and lies half-way between points. What
-/// differs from both of two neighbouring points, between them, belongs to no region. Precondition:
-/// has_regions(); the axes are y, x.
+/// gives them. Borders are located by fresh answers, once for both sides. In closed form with
+/// plastic contact they are found as by boundary_of_region(), to 2⁻²⁴ of the axes. If faces bounce
+/// or drives are searched, a border is located where it crosses the lines of the grid, to 1/400 of
+/// the axes; within a cell it is straight. Stopped by `progress`, it is straight too, and lies
+/// half-way between points. What differs from both of two neighbouring points, between them,
+/// belongs to no region. Precondition: has_regions(); the axes are y, x.
 std::vector<MapRegion> regions_of(const Grid& grid, std::span<const PlaceKind> points,
                                   const std::optional<Target>& target,
                                   Progress& progress = no_progress());
