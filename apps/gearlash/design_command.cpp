@@ -8,6 +8,7 @@
 
 #include "base/progress_part.hpp"
 #include "command.hpp"
+#include "grid_options.hpp"
 #include "input/axis_text.hpp"
 #include "input/target_text.hpp"
 #include "limit_options.hpp"
@@ -15,13 +16,12 @@
 #include "model/reduced_drive.hpp"
 #include "output/design_report.hpp"
 #include "output/output_file.hpp"
-#include "picture/region_map.hpp"
+#include "picture/grid_map.hpp"
 #include "plot_option.hpp"
 #include "question/axis.hpp"
 #include "question/change/closed_form_line.hpp"
 #include "question/change/drive_with_value.hpp"
 #include "question/change/feasible_values.hpp"
-#include "question/final_servo.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 
@@ -36,6 +36,8 @@ constexpr char design_examples[] =
     "      --parameters gearbox.backlash,gearbox.ratio --format json | jq .answers[0].nearest\n"
     "  gearlash design examples/elinco-fd162.toml --target no-hunting \\\n"
     "      --vary load.friction,controller.proportional --plot region=region.svg\n"
+    "  gearlash design examples/first-servo.toml --target \"no-hunting and bandwidth >= 2 Hz\" \\\n"
+    "      --vary controller.proportional=10:80:8,gearbox.backlash --plot region=region.svg\n"
     "  gearlash design examples/dynamixel-joint.toml --target \"no-hunting and bandwidth >= 10 "
     "Hz\"\n"
     "  gearlash design examples/robot-joint.toml --target \"motor-amplitude <= 0.1 deg\" \\\n"
@@ -48,7 +50,7 @@ struct DesignOptions {
   std::string target;
   std::vector<std::string> parameters;
   std::vector<std::string> vary;
-  std::string cost = "bandwidth";
+  std::string quantity = "bandwidth";
   std::vector<std::string> plots;
   std::string format = "text";
   LimitOptions limits;
@@ -60,47 +62,69 @@ std::string unknown_text(std::size_t known, std::size_t all) {
                      all - known == 1 ? "is" : "are");
 }
 
-/// The picture: the two parameters of --vary, y over x.
-struct Region {
-  std::vector<Axis> axes{};
-  Cost cost = Cost::bandwidth;
-};
+/// An axis of the picture as typed; of a name alone its ends: those of usual_axis() but for a
+/// leading 0, by ratio three times as far.
+Axis read_axis_to_draw(const std::string& text, const Drive& drive, std::string* left_out) {
+  constexpr double farther = 3.0;
+  Axis axis = read_axis_or_name("--vary", text, drive, left_out);
+  const bool is_word = unit_of(axis, drive).empty();
+  if (is_word || text.find('=') != std::string::npos) return axis;
+  if (axis.logarithmic) {
+    const double low = axis.values[axis.values.front() == 0.0 ? 1 : 0];
+    axis.values = {low / farther, axis.values.back() * farther};
+    cut_to_permitted(axis, drive);
+  }
+  axis.values = {axis.values.front(), axis.values.back()};
+  return axis;
+}
 
-Region read_region(const DesignOptions& options, const Drive& drive, Faults& faults) {
-  constexpr char field[] = "--vary";
-  Region region;
-  for (const Cost cost : {Cost::bandwidth, Cost::damping, Cost::stiffness}) {
-    if (options.cost == name_of(cost)) region.cost = cost;
+/// Puts as many values between its ends as some seconds allow, or minutes if faces bounce or drives
+/// are searched.
+void space(Axis& axis, const EnginesNeeded& engines) {
+  const std::size_t count = engines.search ? 13 : engines.bounces ? 40 : 100;
+  axis = spaced_axis("--vary", axis.path, axis.values.front(), axis.values.back(), count,
+                     axis.logarithmic ? Spacing::logarithmic : Spacing::linear);
+}
+
+bool are_two(const std::vector<std::string>& names) {
+  return names.size() == 2 && names[0] != names[1];
+}
+
+/// The map of --vary, with the first parameter along x.
+GridTask read_region(const DesignOptions& options, const WrittenDrive& written,
+                     const Target& target, Faults& faults) {
+  GridTask task{.verb = "map",
+                .grid = {.drive = written.drive},
+                .quantity = read_quantity(options.quantity, faults),
+                .angle = written.angle,
+                .has_boundary = true,
+                .target = target,
+                .target_text = options.target};
+  std::vector<Axis>& axes = task.grid.axes;
+  if (!are_two(options.vary)) return task;
+  for (const std::string& text : options.vary) {
+    Axis axis = collect_axis([&](auto* out) { return read_axis_to_draw(text, written.drive, out); },
+                             faults);
+    if (!axis.values.empty()) axes.insert(axes.begin(), std::move(axis));
   }
-  if (!options.vary.empty() && !closed_form_drive(drive)) {
-    faults.add({field, fmt::format("{}", fmt::join(options.vary, ",")),
-                std::string(permitted_with_closed_form) +
-                    "; of any drive, gearlash map draws a quantity over two parameters",
-                ""});
-    return region;
+  const std::vector<std::string> fields = {"--vary", "--vary"};
+  if (axes.size() != 2) return task;
+  faults.add(gearlash::faults(task.grid, fields));
+  if (!faults.none()) return task;
+  const EnginesNeeded engines = Family(task.grid).engines();
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const bool is_named = options.vary[1 - i].find('=') == std::string::npos;
+    if (is_named && !unit_of(axes[i], written.drive).empty()) space(axes[i], engines);
   }
-  std::vector<std::string> paths;
-  for (const std::string& name : options.vary) {
-    paths.push_back(path_named(name, drive));
-    if (ClosedFormLine::along(drive, paths.back())) continue;
-    faults.add({field, name, "must be a number that enters the closed form", ""});
-    return region;
-  }
-  if (paths.size() != 2) return region;
-  const std::size_t count = values_to_draw(drive, paths[0], paths[1]);
-  for (const std::string& path : paths) {
-    region.axes.push_back(axis_to_draw(drive, path, count));
-    if (region.axes.back().values.size() > 1) continue;
-    faults.add({field, path,
-                "must not be 0: the picture varies it by multiples of its present value", ""});
-  }
-  return region;
+  require_an_area(task.grid, fields, faults);
+  require_drawable(task.grid, fields, faults);
+  task.present = place_on_map(task.grid);
+  return task;
 }
 
 /// Checks that do not need the drive.
 void check_options(const DesignOptions& options, Faults& faults) {
   faults.require_choice("--format", options.format, {"text", "json"});
-  faults.require_choice("--cost", options.cost, {"bandwidth", "damping", "stiffness"});
   if (options.plots.empty() != options.vary.empty()) {
     faults.add(options.plots.empty()
                    ? Fault{"--plot", "",
@@ -108,19 +132,10 @@ void check_options(const DesignOptions& options, Faults& faults) {
                            ""}
                    : Fault{"--vary", "", "must name the two parameters of the picture", ""});
   }
-  const bool are_two = options.vary.size() == 2 && options.vary[0] != options.vary[1];
-  if (!options.vary.empty() && !are_two) {
+  if (!options.vary.empty() && !are_two(options.vary)) {
     faults.add({"--vary", std::to_string(options.vary.size()) + " names",
                 "must be two different parameters, separated by a comma", ""});
   }
-}
-
-std::string draw(const RegionMapTask& task, const Region& region, const Plot& plot,
-                 LimitedWork& work) {
-  TerminalProgress progress(work, "Region");
-  const ContourMap map = map_of(task, region.axes[0], region.axes[1], progress);
-  if (work.is_stopped()) throw OutputError(plot.file + ": not drawn: the work was stopped before");
-  return draw_contour_map(map, plot.format);
 }
 
 std::vector<Axis> read_axes(const DesignOptions& options, const Drive& drive, Faults& faults) {
@@ -169,7 +184,7 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
   if (!written) faults.require_none();
   const Drive& drive = written->drive;
   const std::vector<Axis> axes = read_axes(options, drive, faults);
-  const Region region = read_region(options, drive, faults);
+  const GridTask region = read_region(options, *written, target, faults);
   const Limits limits = read_limits(options.limits, faults);
   faults.require_none();
   LimitedWork work(limits);
@@ -182,13 +197,15 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
   Extras extras;
   extras.print(options.format == "json" ? design_json(report) : design_text(report));
   const ExitStatus status = end_work(work, ExitStatus::done, unknown_text(known, axes.size()));
-  const RegionMapTask map{.drive = drive,
-                          .target = target,
-                          .target_text = options.target,
-                          .cost = region.cost,
-                          .angle = written->angle};
+  if (plots.empty()) return extras.status(status);
+  const GridTable table = work_out(region, work, provenance).table;
   for (const Plot& plot : plots) {
-    extras.make([&] { write_file(plot.file, draw(map, region, plot, work)); });
+    extras.make([&] {
+      if (work.is_stopped()) {
+        throw OutputError(plot.file + ": not drawn: the work was stopped before");
+      }
+      write_file(plot.file, draw_grid_map(table, region.quantity, plot.format));
+    });
   }
   return extras.status(status);
 }
@@ -218,14 +235,15 @@ void add_design_command(Command& app, Action& action) {
       ->delimiter(',');
   command
       ->add_option("--vary", options->vary,
-                   "Choose two parameters, separated by a comma; --plot draws where both\n"
-                   "together meet the target, with lines of equal cost")
+                   "Choose two parameters, separated by a comma, each with or without a\n"
+                   "range; --plot draws where both together meet the target")
       ->type_name("X,Y")
       ->delimiter(',');
   command
-      ->add_option("--cost", options->cost,
-                   "Choose the cost: bandwidth (default), damping or stiffness")
-      ->type_name("COST");
+      ->add_option("--quantity", options->quantity,
+                   "Draw contours of this quantity beside it: bandwidth (default),\n"
+                   "phase-margin, amplitude, …")
+      ->type_name("NAME");
   add_plot_option(*command, options->plots,
                   "Draw region=FILE, where the parameters of --vary meet the\ntarget;");
   command->add_option("--format", options->format, "Choose the format: text (default) or json")

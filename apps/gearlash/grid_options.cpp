@@ -11,6 +11,7 @@
 
 #include "base/progress_part.hpp"
 #include "base/range_check.hpp"
+#include "input/target_text.hpp"
 #include "machine_faults.hpp"
 #include "picture/grid_map.hpp"
 #include "question/family/evaluation.hpp"
@@ -102,17 +103,6 @@ std::vector<Axis> read_axes(const std::vector<AxisText>& texts, const Drive& dri
   return axes;
 }
 
-Quantity read_quantity(const std::string& text, Faults& faults) {
-  const std::optional<Quantity> quantity = find_quantity(text);
-  if (quantity && info_of(*quantity).kind == QuantityKind::number) return *quantity;
-  std::vector<std::string> names;
-  for (const QuantityInfo& info : quantities()) {
-    if (info.kind == QuantityKind::number) names.emplace_back(info.name);
-  }
-  faults.require_choice("--quantity", text, names);
-  return Quantity::amplitude;
-}
-
 /// The extension in lower case.
 std::string ending_of(const std::string& file) {
   std::string ending = std::filesystem::path(file).extension().string();
@@ -138,32 +128,19 @@ void read_outputs(const GridOptions& options, const std::vector<std::string>& ki
   }
 }
 
-/// A picture has no room for infinity, for many curves, or for the digits of a very narrow axis.
-void require_drawable(const Grid& grid, const std::vector<AxisText>& texts, Faults& faults) {
-  constexpr std::size_t most_curves = 16;  // a longer legend leaves no room for them
-  constexpr double narrowest_share =
-      1e-3;  // of the larger end: else its numbers have too many digits
-  for (std::size_t i = 0; i < grid.axes.size(); ++i) {
-    const std::vector<double>& values = grid.axes[i].values;
-    const std::string& field = texts[i].field;
-    const double first = values.front();
-    const double last = values.back();
-    const auto refuse = [&](const std::string& value, const std::string& permitted) {
-      faults.add({field, value,
-                  "must " + permitted + " in a picture; tables (.csv, .json, .nc) may have it",
-                  ""});
-    };
-    const bool is_number = !unit_of(grid.axes[i], grid.drive).empty();
-    if (!std::isfinite(last)) {
-      refuse(exact_text(last), "be finite");
-    } else if (field == "--curves" && values.size() > most_curves) {
-      refuse(fmt::format("{} values", values.size()), fmt::format("be at most {}", most_curves));
-    } else if (field != "--curves" && is_number && values.size() > 1 &&
-               last - first < narrowest_share * std::abs(last)) {
-      refuse(exact_text(first) + " to " + exact_text(last),
-             fmt::format("span {:g} of itself or more", narrowest_share));
-    }
-  }
+/// The target, and the place of a file's drive on the map.
+void read_map_target(const GridOptions& options, bool is_known, GridTask& task, Faults& faults) {
+  if (options.target.empty()) return;
+  const bool has_time = !is_known || !is_normalized(task.grid.drive);
+  task.target_text = options.target;
+  task.target = faults.collect(
+      [&] {
+        return read_target("--target", options.target,
+                           has_time ? TimeScale::known : TimeScale::unknown);
+      },
+      Target{});
+  const bool has_present = !options.servo.file.empty() && task.grid.axes.size() == 2;
+  if (has_present) task.present = place_on_map(task.grid);
 }
 
 void require_room(const Grid& grid) {
@@ -180,7 +157,8 @@ std::vector<Quantity> quantities_of(const GridTask& task) {
   if (task.table.empty()) {
     std::vector<Quantity> drawn = {Quantity::growth_at_rest, task.quantity};
     const auto ceiling = ceiling_over(task.quantity);
-    if (task.has_boundary && engines.search && ceiling) drawn.push_back(*ceiling);
+    const bool has_ceiling = task.has_boundary && engines.search && !task.target;
+    if (has_ceiling && ceiling) drawn.push_back(*ceiling);
     return drawn;
   }
   const auto known = quantities_known(engines);
@@ -202,6 +180,7 @@ void write_table(const GridTask& task, const GridTable& table, const RowCount& c
   GridNetcdf file = GridNetcdf::create(output.hidden_file(), output.shown_name(),
                                        {task.grid, quantities_of(task), table.provenance, ""});
   file.write({0, table.table, count});
+  if (table.target) file.write_target(table.kinds);
   if (table.hunting_boundary) file.write_boundary(*table.hunting_boundary);
   file.close();
 }
@@ -225,6 +204,58 @@ void add_grid_options(Command& command, GridOptions& options, const std::string&
   add_limit_options(command, options.limits);
 }
 
+Quantity read_quantity(const std::string& text, Faults& faults) {
+  const std::optional<Quantity> quantity = find_quantity(text);
+  if (quantity && info_of(*quantity).kind == QuantityKind::number) return *quantity;
+  std::vector<std::string> names;
+  for (const QuantityInfo& info : quantities()) {
+    if (info.kind == QuantityKind::number) names.emplace_back(info.name);
+  }
+  faults.require_choice("--quantity", text, names);
+  return Quantity::amplitude;
+}
+
+void require_an_area(const Grid& grid, const std::vector<std::string>& fields, Faults& faults) {
+  for (std::size_t i = 0; i < grid.axes.size(); ++i) {
+    if (grid.axes[i].values.size() > 1) continue;
+    faults.add({fields[i], "1 value",
+                "must have two values or more; gearlash chart draws a single line", ""});
+  }
+}
+
+void require_drawable(const Grid& grid, const std::vector<std::string>& fields, Faults& faults) {
+  constexpr std::size_t most_curves = 16;  // a longer legend leaves no room for them
+  constexpr double narrowest_share =
+      1e-3;  // of the larger end: else its numbers have too many digits
+  for (std::size_t i = 0; i < grid.axes.size(); ++i) {
+    const std::vector<double>& values = grid.axes[i].values;
+    const std::string& field = fields[i];
+    const double first = values.front();
+    const double last = values.back();
+    const auto refuse = [&](const std::string& value, const std::string& permitted) {
+      faults.add({field, value,
+                  "must " + permitted + " in a picture; tables (.csv, .json, .nc) may have it",
+                  ""});
+    };
+    const bool is_number = !unit_of(grid.axes[i], grid.drive).empty();
+    if (!std::isfinite(last)) {
+      refuse(exact_text(last), "be finite");
+    } else if (field == "--curves" && values.size() > most_curves) {
+      refuse(fmt::format("{} values", values.size()), fmt::format("be at most {}", most_curves));
+    } else if (field != "--curves" && is_number && values.size() > 1 &&
+               last - first < narrowest_share * std::abs(last)) {
+      refuse(exact_text(first) + " to " + exact_text(last),
+             fmt::format("span {:g} of itself or more", narrowest_share));
+    }
+  }
+}
+
+std::optional<MapPoint> place_on_map(const Grid& grid) {
+  const std::optional<double> x = present_value(grid.axes[1], grid.drive);
+  const std::optional<double> y = present_value(grid.axes[0], grid.drive);
+  return x && y ? std::optional(MapPoint{*x, *y}) : std::nullopt;
+}
+
 GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption>& typed_axes,
                         const std::string& verb, const std::vector<std::string>& kinds) {
   Faults faults;
@@ -243,11 +274,12 @@ GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption
   if (written) task.angle = written->angle;
   task.grid.drive = drive_of_axes(written ? written->drive : normal_form(0.5, 1.0, 0.5), texts);
   if (is_known) task.grid.axes = read_axes(texts, task.grid.drive, faults);
+  read_map_target(options, written.has_value(), task, faults);
   const bool are_read = task.grid.axes.size() == typed_axes.size();
-  if (!task.plots.empty() && are_read) require_drawable(task.grid, texts, faults);
-  faults.require_none();
   std::vector<std::string> fields;
   for (const AxisText& text : texts) fields.push_back(text.field);
+  if (!task.plots.empty() && are_read) require_drawable(task.grid, fields, faults);
+  faults.require_none();
   require_none(gearlash::faults(task.grid, fields));
   require_room(task.grid);
   return task;
@@ -268,9 +300,11 @@ std::string solved_text(const RowCount& count) {
 
 namespace {
 
+const char* title_of(const GridTask& task) { return task.verb == "map" ? "Map" : "Chart"; }
+
 /// Writes each block while the next one is computed, instead of output.write().
 RowCount write_netcdf(const GridTask& task, const Provenance& provenance, const OutputFile& output,
-                       Progress& progress) {
+                      Progress& progress) {
   constexpr std::size_t points_at_a_time = std::size_t{1} << 15U;  // 3 MB, which caches hold
   const std::vector<Quantity> quantities = quantities_of(task);
   GridNetcdf file =
@@ -297,33 +331,44 @@ RowCount write_netcdf(const GridTask& task, const Provenance& provenance, const 
 
 }  // namespace
 
+WorkedOut work_out(const GridTask& task, LimitedWork& work, const Provenance& provenance) {
+  WorkedOut done{.table = {.grid = task.grid,
+                           .table = Table(task.grid.size(), quantities_of(task)),
+                           .provenance = provenance,
+                           .angle = task.angle,
+                           .target = task.target,
+                           .target_text = task.target_text,
+                           .present = task.present}};
+  std::optional<TerminalProgress> progress;
+  progress.emplace(work, title_of(task), task.grid.size(), "points");
+  done.count = gearlash::work_out(done.table, *progress);
+  if (!task.has_boundary) return done;
+  progress.emplace(work, "Borders");
+  add_borders(done.table, *progress);
+  return done;
+}
+
 ExitStatus make_grid_files(const GridTask& task, LimitedWork& work, const Provenance& provenance,
                            const GridPicture& draw) {
   const std::unique_ptr<OutputFile> output = opened(task.table);
   std::vector<std::unique_ptr<OutputFile>> pictures;
   for (const Plot& plot : task.plots) pictures.push_back(opened(plot.file));
-  std::optional<TerminalProgress> progress;
-  progress.emplace(work, task.verb == "map" ? "Map" : "Chart", task.grid.size(), "points");
-  GridTable table{.grid = task.grid, .provenance = provenance, .angle = task.angle};
-  RowCount count;
+  WorkedOut done;
   Extras extras;
   std::string made;
   const auto commit = [&](OutputFile& file) {
     file.commit();
     made += (made.empty() ? "" : ", ") + file.shown_name();
   };
-  const bool is_streamed = task.plots.empty() && ending_of(task.table) == ".nc";
+  const bool is_streamed = task.plots.empty() && !task.target && ending_of(task.table) == ".nc";
   if (is_streamed) {
-    count = write_netcdf(task, provenance, *output, *progress);
+    TerminalProgress progress(work, title_of(task), task.grid.size(), "points");
+    done.count = write_netcdf(task, provenance, *output, progress);
   } else {
-    table.table = Table(task.grid.size(), quantities_of(task));
-    count = evaluate(Family(task.grid), task.grid, 0, table.table, *progress);
-    if (task.has_boundary) {
-      progress.emplace(work, "Borders");
-      add_borders(table, *progress);
-    }
+    done = work_out(task, work, provenance);
   }
-  progress.reset();  // wiped before anything is printed
+  const RowCount& count = done.count;
+  const GridTable& table = done.table;
   const ExitStatus status =
       end_work(work, ExitStatus::done,
                count.points() < task.grid.size()

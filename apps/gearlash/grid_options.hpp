@@ -20,6 +20,7 @@ namespace gearlash::cli {
 struct GridOptions {
   ServoOptions servo;
   std::string quantity = "amplitude";
+  std::string target;  ///< of a map; empty: none
   std::string output;
   std::vector<std::string> plots;
   bool proved = false;
@@ -42,14 +43,17 @@ inline constexpr char axis_help[] =
 void add_grid_options(Command& command, GridOptions& options, const std::string& drawing);
 
 struct GridTask {
-  std::string verb;  ///< "chart", "map"
-  Grid grid;
+  std::string verb{};  ///< "chart", "map"
+  Grid grid{};
   Quantity quantity = Quantity::amplitude;
   AngleUnit angle{};          ///< of the file's backlash
   bool has_boundary = false;  ///< computes where hunting ends
-  std::string table;          ///< file in .csv, .json or .nc; empty: none
-  std::vector<Plot> plots;
-  Limits limits;
+  std::optional<Target> target{};
+  std::string target_text{};
+  std::optional<MapPoint> present{};  ///< where the drive lies on a map with a target
+  std::string table{};                ///< file in .csv, .json or .nc; empty: none
+  std::vector<Plot> plots{};
+  Limits limits{};
 };
 
 /// The drive without the parameters on the axes, which no option may give. Without a backlash,
@@ -65,8 +69,26 @@ std::optional<WrittenDrive> read_fixed_drive(const ServoOptions& options,
 GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption>& axes,
                         const std::string& verb, const std::vector<std::string>& kinds);
 
+/// A quantity of numbers; a fault of --quantity otherwise, and amplitude.
+Quantity read_quantity(const std::string& text, Faults& faults);
+
+/// Adds a fault for each axis of a single value. `fields` name the axes.
+void require_an_area(const Grid& grid, const std::vector<std::string>& fields, Faults& faults);
+/// A picture has no room for infinity, for many curves, or for the digits of a very narrow axis.
+void require_drawable(const Grid& grid, const std::vector<std::string>& fields, Faults& faults);
+
+/// Where the grid's drive lies on its map; empty where it lacks the value of an axis.
+std::optional<MapPoint> place_on_map(const Grid& grid);
+
 /// "20 servos, 18 solved side by side, 2 one by one"
 std::string solved_text(const RowCount& count);
+
+struct WorkedOut {
+  GridTable table{};
+  RowCount count{};
+};
+/// The grid's answers and its borders, with progress. What a stop leaves out is unknown.
+WorkedOut work_out(const GridTask& task, LimitedWork& work, const Provenance& provenance);
 
 using GridPicture = std::function<std::string(const GridTable&, PictureFormat)>;
 

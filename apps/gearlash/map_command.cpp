@@ -1,5 +1,4 @@
 // gearlash map: contours over two parameters of the drive, and where hunting ends.
-#include <array>
 #include <memory>
 
 #include "command.hpp"
@@ -15,7 +14,11 @@ constexpr char map_examples[] =
     "  gearlash map --x friction-ratio=0:1:100 --y damping=0.05:0.8:100 --inertia-ratio 2 \\\n"
     "      --quantity period --plot map=period.pdf\n"
     "  gearlash map --x damping=0.1:0.6:50 --y restitution=0:0.5:20 examples/elinco-fd162.toml \\\n"
-    "      --output table.json\n";
+    "      --output table.json\n"
+    "  gearlash map examples/camera-head.toml --x gearbox.backlash=\"1 arcmin\":\"10 arcmin\":40 "
+    "\\\n"
+    "      --y controller.proportional=50:500:40 --quantity bandwidth \\\n"
+    "      --target \"amplitude <= 3 arcmin and bandwidth >= 3 Hz\" --plot map=met.svg\n";
 
 struct MapOptions {
   GridOptions grid;
@@ -23,22 +26,13 @@ struct MapOptions {
   std::string y;
 };
 
-void require_an_area(const GridTask& task) {
-  Faults faults;
-  constexpr std::array fields = {"--y", "--x"};
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (task.grid.axes[i].values.size() > 1) continue;
-    faults.add({fields[i], "1 value",
-                "must have two values or more; gearlash chart draws a single line", ""});
-  }
-  faults.require_none();
-}
-
 ExitStatus run(const MapOptions& options, const Provenance& provenance) {
   GridTask task =
       read_grid_task(options.grid, {{"--y", options.y}, {"--x", options.x}}, "map", {"map"});
   task.has_boundary = true;
-  require_an_area(task);
+  Faults faults;
+  require_an_area(task.grid, {"--y", "--x"}, faults);
+  faults.require_none();
   LimitedWork work(task.limits);
   return make_grid_files(task, work, provenance, [&](const GridTable& table, PictureFormat format) {
     return draw_grid_map(table, task.quantity, format);
@@ -55,6 +49,12 @@ void add_map_command(Command& app, Action& action) {
   command->add_option("--y", options->y, "Set the axis of another parameter")
       ->type_name("AXIS")
       ->required();
+  command
+      ->add_option("--target", options->grid.target,
+                   "Shade where the target is met, with its border, and add a column target to\n"
+                   "tables: no-hunting, \"amplitude <= 1 deg and bandwidth >= 3 Hz\", … as of\n"
+                   "gearlash design")
+      ->type_name("TARGET");
   add_grid_options(*command, options->grid,
                    "Draw map=FILE, contours of the quantity, or its value at each point\n"
                    "if drives are searched;");

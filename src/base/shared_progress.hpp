@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <mutex>
 
@@ -35,6 +36,24 @@ class SharedProgress : public Progress {
   std::mutex telling_;
   std::size_t done_ = 0;
   std::atomic<bool> stopped_ = false;
+};
+
+/// Serializes the progress of several threads. One that knows no share of its own (NaN) repeats the
+/// last one.
+class SerialProgress : public Progress {
+ public:
+  explicit SerialProgress(Progress& progress) : progress_(progress) {}
+
+  bool go_on(double share, std::size_t bytes = 0) override {
+    const std::scoped_lock lock(telling_);
+    if (!std::isnan(share)) share_ = share;
+    return progress_.go_on(share_, bytes);
+  }
+
+ private:
+  Progress& progress_;
+  std::mutex telling_;
+  double share_ = 0.0;
 };
 
 }  // namespace gearlash

@@ -6,7 +6,7 @@
 namespace gearlash {
 namespace {
 
-enum class GridTask : std::size_t { write, read, write_boundary, flush, close };
+enum class GridTask : std::size_t { write, read, write_boundary, write_target, flush, close };
 
 struct GridRequest {
   GridTask task{};
@@ -71,6 +71,12 @@ void GridServer::serve(Connection& parent) {
     case GridTask::write_boundary:
       file_.write_boundary(receive_curves(asked.count, parent));
       break;
+    case GridTask::write_target: {
+      std::vector<PlaceKind> kinds(asked.count);
+      parent.receive_all(std::span(kinds));
+      file_.write_target(kinds);
+      break;
+    }
     case GridTask::flush:
       file_.flush();
       break;
@@ -136,6 +142,13 @@ void GridNetcdf::write_boundary(const std::vector<MapCurve>& boundary) {
       child.send_one(curve.size());
       child.send_all(std::span(curve));
     }
+  });
+}
+
+void GridNetcdf::write_target(std::span<const PlaceKind> kinds) {
+  process_->ask([&](Connection& child) {
+    child.send_one(GridRequest{GridTask::write_target, 0, kinds.size()});
+    child.send_all(kinds);
   });
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,7 @@
 #include "output/grid_netcdf_file.hpp"
 #include "output/writing_process.hpp"
 #include "question/map/grid_pieces.hpp"
-#include "question/map/region_boundary.hpp"
+#include "question/map/map_regions.hpp"
 
 namespace gearlash {
 
@@ -39,6 +40,8 @@ class GridNetcdf {
   /// Writes the boundary of a map with the axes y and x. Call it once. Without a curve it writes
   /// nothing.
   void write_boundary(const std::vector<MapCurve>& boundary);
+  /// Writes whether each point meets a target. Call it once, on a file of create().
+  void write_target(std::span<const PlaceKind> kinds);
   /// Writes everything to the disk (fsync).
   void flush();
   /// Writes everything to the file.

@@ -57,15 +57,15 @@ void GridNetcdfFile::describe(const GridContents& contents) {
   for (const auto& [name, text] : attributes_of_file(contents)) {
     file_.set_attribute_of_file(name, text);
   }
-  const std::vector<NetcdfDimension> dimensions = describe_axes(file_, grid_);
+  dimensions_ = describe_axes(file_, grid_);
   const std::string fixed = describe_fixed_numbers(file_, grid_);
   const NetcdfVariable verdict =
-      file_.add_flags(verdict_name, dimensions, "verdict on the drive", verdict_words());
+      file_.add_flags(verdict_name, dimensions_, "verdict on the drive", verdict_words());
   if (!fixed.empty()) file_.set_attribute(verdict, "coordinates", fixed);
   for (const Quantity quantity : quantities_) {
     const QuantityInfo& info = info_of(quantity);
     const NetcdfVariable variable = file_.add_numbers(
-        std::string(info.name), dimensions, std::string(info.meaning), std::string(info.unit));
+        std::string(info.name), dimensions_, std::string(info.meaning), std::string(info.unit));
     file_.declare_nan_missing(variable);
     if (!fixed.empty()) file_.set_attribute(variable, "coordinates", fixed);
   }
@@ -176,6 +176,26 @@ void GridNetcdfFile::write_boundary(const std::vector<MapCurve>& curves) {
     file_.write(file_.variable(boundary_name(grid_.axes[i])), {0}, {boundary[i].size()},
                 boundary[i]);
   }
+}
+
+void GridNetcdfFile::write_target(std::span<const PlaceKind> kinds) {
+  constexpr std::array words = {PlaceKind::not_known, PlaceKind::missed, PlaceKind::met};
+  std::vector<std::string> meanings;
+  for (const PlaceKind word : words) {
+    meanings.emplace_back(name_of(word));
+    std::replace(meanings.back().begin(), meanings.back().end(), ' ', '_');
+  }
+  file_.resume_description();
+  const NetcdfVariable variable =
+      file_.add_flags("target", dimensions_, "whether the drive meets the target", meanings);
+  file_.end_description();
+  std::vector<signed char> flags;
+  for (const PlaceKind kind : kinds) {
+    flags.push_back(
+        static_cast<signed char>(std::find(words.begin(), words.end(), kind) - words.begin()));
+  }
+  const GridBox box = box_of(grid_, 0, grid_.size());
+  file_.write(variable, box.start, box.extent, flags);
 }
 
 }  // namespace gearlash

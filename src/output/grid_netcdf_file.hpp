@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,7 +11,7 @@
 #include "output/netcdf_file.hpp"
 #include "output/output_file.hpp"
 #include "question/map/grid_pieces.hpp"
-#include "question/map/region_boundary.hpp"
+#include "question/map/map_regions.hpp"
 
 namespace gearlash {
 
@@ -41,6 +42,8 @@ class GridNetcdfFile {
   /// Writes the boundary of a map with the axes y and x. Call it once. Without a curve it writes
   /// nothing.
   void write_boundary(const std::vector<MapCurve>& boundary);
+  /// Writes whether each point meets a target, as flags. Call it once, on a file of create().
+  void write_target(std::span<const PlaceKind> kinds);
   /// Writes everything to the disk (fsync).
   void flush() { file_.flush(); }
   void close() { file_.close(); }
@@ -58,6 +61,7 @@ class GridNetcdfFile {
   NetcdfFile file_;
   Grid grid_;
   std::vector<Quantity> quantities_;
+  std::vector<NetcdfDimension> dimensions_;  ///< of the axes, where it was created
   NetcdfVariable verdict_ = 0;
   std::vector<NetcdfVariable> variables_;  ///< of the quantities
   std::vector<signed char> flags_;

@@ -25,7 +25,7 @@ void write_curves(const std::vector<MapCurve>& curves, const TextSink& sink) {
   sink(curves.empty() ? "]" : "\n  ]");
 }
 
-void write_regions(const std::vector<MotionRegion>& regions, const TextSink& sink) {
+void write_regions(const std::vector<MapRegion>& regions, const TextSink& sink) {
   sink(",\n  \"regions\": [");
   for (std::size_t i = 0; i < regions.size(); ++i) {
     const Json kind = std::string(name_of(regions[i].kind));
@@ -66,10 +66,16 @@ std::vector<Quantity> quantities_of(const Table& table) {
   return found;
 }
 
-void write_columns(const Table& table, const TextSink& sink) {
+void write_columns(const GridTable& of, const TextSink& sink) {
+  const Table& table = of.table;
   sink("{\n    \"verdict\": ");
   write_list(
       table.verdicts(), [](Verdict verdict) { return name_of(verdict); }, sink);
+  if (of.target) {
+    sink(",\n    \"target\": ");
+    write_list(
+        of.kinds, [](PlaceKind kind) { return std::string(name_of(kind)); }, sink);
+  }
   for (const QuantityInfo& info : quantities()) {
     if (info.kind != QuantityKind::number) continue;
     sink(",\n    \"" + std::string(info.name) + "\": ");
@@ -78,23 +84,32 @@ void write_columns(const Table& table, const TextSink& sink) {
   sink("\n  }");
 }
 
-/// Regions of kinds of motion need a search, and axes on which one number lies between two others.
-bool has_regions(const Grid& grid) {
-  const auto is_of_numbers = [&](const Axis& axis) {
-    return parameter_of(axis, grid.drive)->choices.empty() && std::isfinite(axis.values.back());
-  };
-  return Family(grid).engines().search &&
-         std::all_of(grid.axes.begin(), grid.axes.end(), is_of_numbers);
-}
-
 }  // namespace
+
+RowCount work_out(GridTable& table, Progress& progress) {
+  const Family family(table.grid);
+  const std::size_t rows = table.table.rows();
+  AskedOfRows asked;
+  if (table.target) {
+    table.kinds.assign(rows, PlaceKind::not_known);
+    asked = asked_for_kinds(family, table.target, table.kinds);
+  }
+  asked.columns = columns_of(table.table);
+  asked.proved = table.grid.proved;
+  return evaluate(family, rows_of(table.grid, 0, rows), asked, progress);
+}
 
 void add_borders(GridTable& table, Progress& progress) {
   table.hunting_boundary =
       hunting_boundary(table.grid, table.table[Quantity::growth_at_rest], progress);
-  if (!progress.go_on(0.0)) return;
-  table.dissipative_boundary = dissipative_boundary(table.grid, progress);
-  if (has_regions(table.grid)) table.regions = motion_regions(table.grid, table.table, progress);
+  if (progress.go_on(0.0)) table.dissipative_boundary = dissipative_boundary(table.grid, progress);
+  const bool wants_regions = table.target || Family(table.grid).engines().search;
+  if (!wants_regions || !has_regions(table.grid)) return;
+  std::vector<PlaceKind> kinds = table.kinds;
+  if (!table.target) {
+    for (const Verdict verdict : table.table.verdicts()) kinds.push_back(kind_of(verdict));
+  }
+  table.regions = regions_of(table.grid, kinds, table.target, progress);
 }
 
 std::string certainty_of(const Grid& grid) {
@@ -125,6 +140,7 @@ void write_grid_csv(const GridTable& table, const TextSink& sink) {
   std::vector<std::string> names;
   for (const Axis& axis : axes) names.push_back(column_name(axis.path));
   names.emplace_back("verdict");
+  if (table.target) names.emplace_back("target");
   for (const Quantity quantity : numbers) names.emplace_back(name_of(quantity));
   std::vector<bool> are_words;
   for (const Axis& axis : axes) are_words.push_back(unit_of(axis, table.grid.drive).empty());
@@ -135,6 +151,7 @@ void write_grid_csv(const GridTable& table, const TextSink& sink) {
       are_words[i] ? csv.cell(text_of(axes[i], table.grid.drive, values[i])) : csv.cell(values[i]);
     }
     csv.cell(name_of(table.table.verdict(row)));
+    if (table.target) csv.cell(std::string(name_of(table.kinds[row])));
     for (const Quantity quantity : numbers) csv.cell(table.table[quantity][row]);
     csv.end_row();
   }
@@ -152,10 +169,11 @@ void write_grid_json(const GridTable& table, const std::string& verb, const Text
   header["drive"] = std::move(fixed);
   header["defaults"] = std::move(defaults);
   header["axes"] = json_axes(grid);
+  if (table.target) header["target"] = table.target_text;
   std::string text = header.dump(2);
   text.resize(text.rfind("\n}"));  // reopens the object: the columns follow, number by number
   sink(text + ",\n  \"columns\": ");
-  write_columns(table.table, sink);
+  write_columns(table, sink);
   if (table.hunting_boundary) {
     sink(",\n  \"hunting_boundary\": ");
     write_curves(*table.hunting_boundary, sink);

@@ -37,16 +37,18 @@ std::string palette(const CellMap& map) {
 struct Cells {
   DataBlock numbers;
   DataBlock dots;
+  DataBlock frames;
 };
 
 Cells cells_of(const CellPanel& panel, const std::string& name) {
-  Cells cells{DataBlock(name), DataBlock(name + "_dots")};
+  Cells cells{DataBlock(name), DataBlock(name + "_dots"), DataBlock(name + "_frames")};
   for (std::size_t row = 0; row < panel.values.size(); ++row) {
     for (std::size_t column = 0; column < panel.values[row].size(); ++column) {
       const double value = panel.values[row][column];
-      if (std::isnan(value)) continue;
       const auto x = static_cast<double>(column);
       const auto y = static_cast<double>(row);
+      if (!panel.framed.empty() && panel.framed[row][column]) cells.frames.row(x, y);
+      if (std::isnan(value)) continue;
       std::isinf(value) ? cells.dots.row(x, y) : cells.numbers.row(x, y, value);
     }
   }
@@ -63,7 +65,9 @@ std::string draw_cell_map(const CellMap& map, PictureFormat format) {
   for (std::size_t i = 0; i < map.panels.size(); ++i) {
     const std::string name = fmt::format("panel{}", i);
     const Cells cells = cells_of(map.panels[i], name);
-    data += cells.numbers.text() + cells.dots.text();
+    for (const DataBlock* block : {&cells.numbers, &cells.dots, &cells.frames}) {
+      data += block->text();
+    }
     plots += "set title " + quoted(map.panels[i].title) + " offset 0,-0.4\n";
     plots += i % panels_a_line == 0 ? "set ylabel " + quoted(map.y_label) + "\n" : "unset ylabel\n";
     plots += i + panels_a_line >= map.panels.size() ? "set xlabel " + quoted(map.x_label) + "\n"
@@ -79,6 +83,12 @@ std::string draw_cell_map(const CellMap& map, PictureFormat format) {
     if (!cells.dots.is_empty()) {
       layers.push_back(fmt::format("${0}_dots using 1:2:('{{/*{1} ·}}') with labels notitle", name,
                                    is_one ? "2.5" : "1.0"));
+    }
+    if (!cells.frames.is_empty()) {
+      layers.push_back(fmt::format(
+          "${}_frames using 1:2:(0.46):(0.46) with boxxyerror fill empty linecolor rgb '#1b7837' "
+          "linewidth 3 notitle",
+          name));
     }
     if (layers.empty()) layers.push_back("1/0 notitle");  // keeps the axes
     plots += plot_command(layers);

@@ -10,8 +10,9 @@ namespace gearlash {
 
 struct CellPanel {
   std::string title;
-  std::vector<std::vector<double>> values;  ///< [row][column]; NaN leaves a cell empty,
-                                            ///< infinity shows a dot, not a number
+  std::vector<std::vector<double>> values;     ///< [row][column]; NaN leaves a cell empty,
+                                               ///< infinity shows a dot, not a number
+  std::vector<std::vector<bool>> framed = {};  ///< as many, or none
 };
 
 struct CellMap {

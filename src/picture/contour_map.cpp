@@ -163,6 +163,8 @@ std::vector<LegendEntry> legend_entries(const ContourMap& map) {
   add(!map.other_contours.empty(), {line, other_contour_style(), map.other_meaning});
   add(!map.boundary.empty(), {line, boundary_style(), map.boundary_meaning});
   add(!map.hatching.empty(), {hatching, "", map.hatching_meaning});
+  const bool is_line_alone = !map.inner_boundary.empty() && map.inner_hatching.empty();
+  add(is_line_alone, {line, inner_boundary_style(), map.inner_meaning});
   add(!map.inner_hatching.empty(), {dense_hatching, "", map.inner_meaning});
   add(map.mark.has_value(), {point, "", map.mark_meaning});
   return entries;

@@ -38,34 +38,57 @@ std::vector<Contour> drawn_contours(const GridTable& table, Quantity quantity) {
 }
 
 /// Light enough for contours on them, and of different lightness.
-const char* colour_of(MotionKind kind) {
+const char* colour_of(PlaceKind kind) {
   switch (kind) {
-    case MotionKind::rests:
+    case PlaceKind::rests:
       return "#eef6ee";
-    case MotionKind::hunts_if_disturbed:
+    case PlaceKind::hunts_if_disturbed:
       return "#fdf0c8";
-    case MotionKind::hunts:
+    case PlaceKind::hunts:
       return "#fbd9bd";
-    case MotionKind::runs_away:
+    case PlaceKind::runs_away:
       return "#e0b3c4";
-    case MotionKind::not_known:
+    case PlaceKind::met:
+      return "#cfe8cf";
+    case PlaceKind::missed:
+      return "#f7efe6";
+    case PlaceKind::not_known:
       break;
   }
   return "#d4d4d4";
 }
 
 void add_regions(const GridTable& table, Quantity quantity, ContourMap& map) {
-  for (const MotionRegion& region : *table.regions) {
+  for (const MapRegion& region : *table.regions) {
     map.regions.push_back(
         {std::string(name_of(region.kind)), colour_of(region.kind), region.outlines});
   }
   map.boundary = borders_of(*table.regions, table.grid);
-  map.boundary_meaning = "border";
+  map.boundary_meaning = table.target ? "limit" : "border";
   map.contour_meaning = in_words(std::string(gearlash::name_of(quantity)));
+  if (table.target) {
+    map.title = "Target: " + table.target_text;
+    map.contour_meaning += unit_in_brackets(quantity, table.grid, table.angle);
+    const bool is_limit = table.target->no_hunting || table.target->no_hunting_if_disturbed;
+    if (!is_limit) map.inner_boundary = *table.hunting_boundary;
+    map.inner_meaning = "hunting ends";
+    return;
+  }
   const std::optional<Quantity> ceiling = ceiling_over(quantity);
   if (!ceiling || !table.table.has(*ceiling)) return;
   map.other_contours = drawn_contours(table, *ceiling);
   map.other_meaning = "ceiling, proved";
+}
+
+/// The place of the drive as it is, if it lies on the map.
+std::optional<MapPoint> mark_of(const GridTable& table) {
+  if (!table.present) return std::nullopt;
+  const auto contains = [&](std::size_t axis, double value) {
+    const std::vector<double>& values = table.grid.axes[axis].values;
+    return value >= values.front() && value <= values.back();
+  };
+  const bool is_on_map = contains(1, table.present->x) && contains(0, table.present->y);
+  return is_on_map ? table.present : std::nullopt;
 }
 
 ContourMap in_radians(const GridTable& table, Quantity quantity) {
@@ -76,9 +99,11 @@ ContourMap in_radians(const GridTable& table, Quantity quantity) {
                  .y = chart_axis(grid.axes[0], grid.drive, {}),
                  .contours = drawn_contours(table, quantity),
                  .boundary = table.hunting_boundary.value(),
+                 .mark = mark_of(table),
                  .contour_meaning = "contours",
                  .boundary_meaning = "hunting ends",
-                 .hatching_meaning = "no limit cycle"};
+                 .hatching_meaning = "no limit cycle",
+                 .mark_meaning = "now"};
   if (table.regions) {
     add_regions(table, quantity, map);
     return map;
@@ -122,6 +147,7 @@ ContourMap map_of(const GridTable& table, Quantity quantity) {
        {&map.boundary, &map.hatching, &map.inner_boundary, &map.inner_hatching}) {
     draw_in_units(*curves);
   }
+  if (map.mark) map.mark = {map.mark->x / x_unit, map.mark->y / y_unit};
   return map;
 }
 
@@ -133,7 +159,8 @@ CellMap cells_of(const GridTable& table, Quantity quantity) {
   const Axis& y = grid.axes[0];
   const Axis& x = grid.axes[1];
   CellMap map{.title = title_of(quantity) + unit_in_brackets(quantity, grid, table.angle),
-              .subtitle = subtitle_of(grid) + "; · comes to rest, empty: not known",
+              .subtitle = subtitle_of(grid) + "; · comes to rest, empty: not known" +
+                          (table.target ? "; framed: " + table.target_text : ""),
               .x_label = chart_axis(x, grid.drive, table.angle).label,
               .y_label = chart_axis(y, grid.drive, table.angle).label,
               .largest = 0.0,
@@ -149,11 +176,13 @@ CellMap cells_of(const GridTable& table, Quantity quantity) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < y.values.size(); ++i) {
     std::vector<double>& row = panel.values.emplace_back();
+    std::vector<bool>& framed = panel.framed.emplace_back();
     for (std::size_t j = 0; j < x.values.size(); ++j) {
       const std::size_t point = i * x.values.size() + j;
       const double value = of_motion(table.table, quantity, point) / unit;
       const bool is_rest = std::isnan(value) && !std::isnan(table.table[quantity][point]);
       row.push_back(is_rest ? std::numeric_limits<double>::infinity() : value);
+      framed.push_back(table.target && table.kinds[point] == PlaceKind::met);
       if (!std::isfinite(value)) continue;
       map.largest = std::max(map.largest, std::abs(value));
       least = std::min(least, value);
@@ -183,7 +212,7 @@ std::string draw_grid_map(const GridTable& table, Quantity quantity, PictureForm
     any_words = any_words || has_words(axis, grid.drive);
     is_small = is_small && axis.values.size() <= most_cells;
   }
-  const bool as_cells = any_words || (is_small && Family(grid).engines().search);
+  const bool as_cells = any_words || (is_small && !table.target && Family(grid).engines().search);
   return as_cells ? draw_cell_map(cells_of(table, quantity), format)
                   : draw_contour_map(map_of(table, quantity), format);
 }

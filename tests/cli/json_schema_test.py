@@ -50,6 +50,8 @@ COMMANDS = [
     ["map", "--x", "damping=0.1:0.9:9", "--y", "friction-ratio=0.1:0.9:9", "--inertia-ratio", "1"],
     ["map", "examples/elinco-fd162.toml", "--x", "gearbox.ratio=1,2", "--y",
      "sampling.period=1 ms,10 ms"],
+    ["map", "examples/elinco-fd162.toml", "--x", "load.friction=1e-5:1e-3:5:log", "--y",
+     "controller.proportional=1,10", "--target", "no-hunting and bandwidth >= 1 Hz"],
     ["design", "examples/elinco-fd162.toml", "--target", "no-hunting", "--parameters",
      "gearbox.backlash,gearbox.ratio,controller.motor_speed_feedback,load.inertia"],
     ["design", *SERVO, "--target", "amplitude <= 0.1", "--parameters", "backlash,servo.damping"],

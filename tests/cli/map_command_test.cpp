@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "closed_form/growth_at_rest.hpp"
 #include "closed_form/limit_cycle.hpp"
@@ -131,6 +132,69 @@ TEST(MapCommand, OfSearchedDrivesHasRegionsOfOneKindOfMotion) {
                                   "map=" + (scratch / "alone.svg").string()});
   ASSERT_EQ(alone.status, 0) << alone.err;
   EXPECT_THAT(file_text(scratch / "alone.svg"), HasSubstr("ceiling, proved"));
+}
+
+TEST(MapCommand, JudgesPointsByATarget) {
+  const Scratch scratch;
+  const std::vector<std::string> target = {"--target", "amplitude <= 0.5 and multiplier <= 0.9"};
+  const Outcome run = run_tool(map_into(scratch / "map.json", target));
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto map = nlohmann::json::parse(file_text(scratch / "map.json"));
+  EXPECT_EQ(map["target"], target[1]);
+  const auto& columns = map["columns"];
+  std::set<std::string> words;
+  for (std::size_t i = 0; i < columns["target"].size(); ++i) {
+    const bool rests = columns["verdict"][i] == "cannot hunt";
+    const bool is_met = rests || (columns["amplitude"][i].get<double>() <= 0.5 &&
+                                  columns["multiplier"][i].get<double>() <= 0.9);
+    EXPECT_EQ(columns["target"][i], is_met ? "met" : "missed") << i;
+    words.insert(columns["target"][i]);
+  }
+  EXPECT_EQ(words.size(), 2U);
+  ASSERT_EQ(map["regions"].size(), 2U);
+  EXPECT_EQ(map["regions"][0]["kind"], "met");
+  EXPECT_EQ(map["regions"][1]["kind"], "missed");
+  // The other columns are those without a target.
+  ASSERT_EQ(run_tool(map_into(scratch / "plain.json")).status, 0);
+  const auto plain = nlohmann::json::parse(file_text(scratch / "plain.json"));
+  EXPECT_EQ(plain["columns"]["amplitude"], columns["amplitude"]);
+  EXPECT_FALSE(plain["columns"].contains("target"));
+  ASSERT_EQ(run_tool(map_into(scratch / "map.csv", target)).status, 0);
+  EXPECT_THAT(lines_of(file_text(scratch / "map.csv"))[0],
+              StartsWith("damping,friction_ratio,verdict,target,growth_at_rest,"));
+}
+
+TEST(MapCommand, ShadesWhereSearchedDrivesMeetATarget) {
+  const Scratch scratch;
+  std::ofstream(scratch / "pd.toml") << pd_drive;
+  const std::vector<std::string> words = {
+      "map",      (scratch / "pd.toml").string(),
+      "--x",      "controller.proportional=1 N m/rad:6 N m/rad:7",
+      "--target", "no-hunting-if-disturbed and bandwidth >= 2.5 Hz"};
+  const auto drawn = [&](const std::string& y) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), {"--y", y, "--plot", "map=" + (scratch / "map.svg").string()});
+    const Outcome run = run_tool(all);
+    EXPECT_EQ(run.status, 0) << run.err;
+    return file_text(scratch / "map.svg");
+  };
+  const std::string svg = drawn("controller.derivative=0.02 N m s/rad:0.04 N m s/rad:3");
+  for (const char* text :
+       {"Target: no-hunting-if-disturbed and bandwidth", ">met<", ">missed<", ">limit<", ">now<"}) {
+    EXPECT_THAT(svg, HasSubstr(text));
+  }
+  EXPECT_THAT(drawn("sensor.position=load,motor"), HasSubstr("framed: no-hunting-if-disturbed"));
+}
+
+TEST(EdgeMapCommand, AFaultyTargetIsNamed) {
+  const Scratch scratch;
+  const Outcome run = run_tool(map_into(scratch / "map.svg", {"--target", "colour <= 3"}));
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, StartsWith("gearlash: --target = colour <= 3: must be no-hunting"));
+  const Outcome timeless =
+      run_tool(map_into(scratch / "map.svg", {"--target", "frequency >= 3 Hz"}));
+  EXPECT_EQ(timeless.status, 2);
+  EXPECT_THAT(timeless.err, HasSubstr("--target = frequency >= 3 Hz: needs a time scale"));
 }
 
 TEST(MapCommand, TableHasALineAPoint) {

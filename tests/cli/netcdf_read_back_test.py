@@ -122,6 +122,17 @@ class ReadBack(unittest.TestCase):
                                   "friction_ratio": 0.3, "backlash": 1.0, "restitution": 0.0})
             self.assertEqual(single["growth_at_rest"] > 1.0, growing)
 
+    def test_a_map_with_a_target(self):
+        data = self.written("map", "--x", "inertia-ratio=0.1:10:5:log", "--y", "damping=0.05:1:4",
+                            "--friction-ratio", "0.3", "--target", "no-hunting")
+        target = data["target"]
+        self.assertEqual(target.dims, ("damping", "inertia_ratio"))
+        words = target.attrs["flag_meanings"].split()
+        self.assertEqual(words, ["not_known", "missed", "met"])
+        met = target.values == words.index("met")
+        self.assertTrue((met == (data["growth_at_rest"].values <= 1.0)).all())
+        self.assertTrue(met.any() and not met.all())
+
     def test_a_map_without_a_boundary(self):
         data = self.written("map", "--x", "inertia-ratio=1:2:3", "--y", "damping=0.1:0.2:3",
                             "--friction-ratio", "0.1")

@@ -184,6 +184,36 @@ TEST(GridMap, ItsPictureIsTheSameEachTimeAndHasItsNumbers) {
   EXPECT_GE(numbers + 3, map.contours.size());  // where it is too narrow there is none
 }
 
+/// The limit of a target on the amplitude is where the amplitude has it.
+TEST(OracleGridMap, ShadesWhereATargetIsMet) {
+  GridTable table = map_table(0.0);
+  constexpr double limit = 0.4;
+  table.target = Target{}.require(Quantity::amplitude, {0.0, limit});
+  table.target_text = "amplitude <= 0.4";
+  table.present = MapPoint{0.5, 0.3};
+  work_out(table);
+  add_borders(table);
+  const ContourMap map = map_of(table, Quantity::amplitude);
+  EXPECT_EQ(map.title, "Target: amplitude <= 0.4");
+  ASSERT_EQ(map.regions.size(), 2U);
+  EXPECT_EQ(map.regions[0].meaning, "met");
+  EXPECT_EQ(map.regions[1].meaning, "missed");
+  EXPECT_EQ(map.mark, table.present);
+  EXPECT_EQ(map.inner_boundary, *table.hunting_boundary);
+  EXPECT_TRUE(map.hatching.empty());
+  ASSERT_FALSE(map.boundary.empty());
+  for (const MapCurve& curve : map.boundary) {
+    for (const MapPoint& point : curve) {
+      const Answer answer = closed_answer(drive_of(servo_at(table.grid, point)));
+      EXPECT_NEAR(answer.value(Quantity::amplitude).value(), limit, 1e-5);
+    }
+  }
+  table.target->no_hunting = true;  // its limit is where hunting ends
+  EXPECT_TRUE(map_of(table, Quantity::amplitude).inner_boundary.empty());
+  table.present = MapPoint{2.0, 0.3};
+  EXPECT_FALSE(map_of(table, Quantity::amplitude).mark.has_value());
+}
+
 TEST(EdgeGridMap, NothingKnownIsAnEmptyPicture) {
   GridTable table = map_table(0.0);
   const std::size_t rows = table.grid.size();

@@ -45,14 +45,14 @@ class FigureColumns {
 
 /// The number of points in closed form that a thread solves at a time: some tenths of a millisecond
 /// without bounces, some tens of milliseconds with them or with figures.
-std::size_t points_at_a_time(const EnginesNeeded& engines, const FigureColumns& figures) {
-  if (!figures.are_none()) return 16;
+std::size_t points_at_a_time(const EnginesNeeded& engines, bool has_figures) {
+  if (has_figures) return 16;
   return engines.bounces ? 8 : 4096;
 }
 
 CycleColumns rows_of(const CycleColumns& columns, std::size_t first, std::size_t count) {
   CycleColumns rows;
-  rows.verdict = columns.verdict.subspan(first, count);
+  if (!columns.verdict.empty()) rows.verdict = columns.verdict.subspan(first, count);
   for (std::size_t i = 0; i < quantity_count; ++i) {
     if (!columns.numbers[i].empty()) rows.numbers[i] = columns.numbers[i].subspan(first, count);
   }
@@ -116,23 +116,25 @@ void read_back(const CycleColumns& columns, std::size_t row, Answer& answer) {
   }
 }
 
-/// Columns of a part's own, of what read_back() needs, where none are asked for.
+/// Columns of a part's own, of what read_back() needs and is not asked for.
 struct OwnColumns {
-  explicit OwnColumns(std::size_t rows)
-      : verdict(rows), growth_at_rest(rows), amplitude(rows), period(rows) {}
-
-  CycleColumns columns() {
-    CycleColumns all{.verdict = verdict};
-    all[Quantity::growth_at_rest] = growth_at_rest;
-    all[Quantity::amplitude] = amplitude;
-    all[Quantity::period] = period;
-    return all;
+  /// The columns asked for, with what is missing.
+  CycleColumns completed(CycleColumns columns, std::size_t rows) {
+    if (columns.verdict.empty()) {
+      verdict.resize(rows);
+      columns.verdict = verdict;
+    }
+    constexpr std::array read = {Quantity::growth_at_rest, Quantity::amplitude, Quantity::period};
+    for (std::size_t i = 0; i < read.size(); ++i) {
+      if (!columns[read[i]].empty()) continue;
+      numbers[i].resize(rows);
+      columns[read[i]] = numbers[i];
+    }
+    return columns;
   }
 
   std::vector<Verdict> verdict;
-  std::vector<double> growth_at_rest;
-  std::vector<double> amplitude;
-  std::vector<double> period;
+  std::array<std::vector<double>, 3> numbers;
 };
 
 /// Consecutive rows: those in closed form are solved as a batch, the others searched.
@@ -143,13 +145,14 @@ class FamilyPart {
       : family_(family),
         asked_(asked),
         first_(first),
-        own_(asked.columns.verdict.empty() ? count : 0),
-        columns_(asked.columns.verdict.empty() ? own_.columns()
-                                               : rows_of(asked.columns, first, count)),
+        columns_(rows_of(asked.columns, first, count)),
         member_(family),
         servos_(count),
         values_(count * family.width()),
-        longest_run_(longest_run) {}
+        longest_run_(longest_run) {
+    const bool needs_more = asked.take || columns_.verdict.empty();
+    if (needs_more) columns_ = own_.completed(columns_, count);
+  }
 
   RowCount work_out(const FamilyRows& rows, VectorUnit unit, SharedProgress& progress) {
     rows.fill(first_, values_);
@@ -165,7 +168,7 @@ class FamilyPart {
     // What is not reached is unknown.
     for (const std::size_t row : searched_rows_) write(columns_, row, Answer{});
     for (std::size_t row = 0; row < servos_.size(); ++row) complete(columns_, row);
-    if (asked_.take) give_closed();
+    if (asked_.take) give_closed(progress);
     search(progress);
     count.stopped = !add_figures_to_columns(progress);
     count.searched = found_;
@@ -257,18 +260,24 @@ class FamilyPart {
   }
 
   /// Gives the answers that need no search.
-  void give_closed() {
+  void give_closed(SharedProgress& progress) {
     Answer answer;
     std::size_t next_searched = 0;
     std::size_t next_refused = 0;
     for (std::size_t row = 0; row < servos_.size(); ++row) {
+      if (asked_.whole && !progress.go_on(0.0)) return;
       if (next_searched < searched_rows_.size() && searched_rows_[next_searched] == row) {
         ++next_searched;
         continue;
       }
       const bool is_refused = next_refused < refused_.size() && refused_[next_refused] == row;
       if (is_refused) ++next_refused;
-      read_back(columns_, row, answer);
+      if (asked_.whole && !is_refused) {
+        answer = analyse_in_full(family_.drive_at(values(row)), asked_.wanted, progress).answer;
+        answer.verdict = columns_.verdict[row];
+      } else {
+        read_back(columns_, row, answer);
+      }
       asked_.take(first_ + row, is_refused ? nullptr : &answer);
     }
   }
@@ -386,8 +395,8 @@ RowCount evaluate(const Family& family, const FamilyRows& rows, const AskedOfRow
                   Progress& progress, const Workers& workers) {
   const bool searches = asked.one_by_one || family.engines().search;
   const FigureColumns figures(asked.columns, family.base());
-  const std::vector<std::size_t> begins =
-      parts_of(rows, searches, points_at_a_time(family.engines(), figures));
+  const std::vector<std::size_t> begins = parts_of(
+      rows, searches, points_at_a_time(family.engines(), !figures.are_none() || asked.whole));
   RowCount total;
   std::mutex adding;
   SharedProgress shared(progress, rows.count);

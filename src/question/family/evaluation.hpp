@@ -65,8 +65,9 @@ struct AskedOfRows {
   /// Verdicts in closed form that are not proved become undecided.
   bool proved = false;
   /// Every drive is analysed by itself. Else answers in closed form that are taken have the
-  /// verdict, the growth at rest, and the amplitude and the period of one motion.
+  /// verdict, the growth at rest, and the amplitude and the period of one motion, unless `whole`.
   bool one_by_one = false;
+  bool whole = false;  ///< all that analyse() gives, with the verdict of the columns
 };
 
 /// Evaluates the drives on all cores; see evaluate() in gearlash/grid.hpp. The same bits for any

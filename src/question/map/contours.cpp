@@ -6,16 +6,13 @@
 #include <span>
 
 #include "base/special_numbers.hpp"
+#include "question/analyse.hpp"
 #include "question/family/evaluation.hpp"
 #include "question/map/hunting_boundary.hpp"
 #include "question/map/hunting_end.hpp"
 
 namespace gearlash {
 namespace {
-
-/// Accurate enough for a picture: 2⁻²⁴ of the plane.
-constexpr CurveAccuracy picture_accuracy{
-    .halvings = 24, .straightness = 3e-4, .shortest_chord = 4e-3};
 
 /// The cell's first point on an axis, and the fraction of the way to the next point.
 struct CellPlace {
@@ -131,6 +128,7 @@ std::vector<Contour> contours_of(const Grid& grid, const Table& table, Quantity 
                                  const std::vector<double>& levels) {
   const Family family(grid);
   const bool plastic = !family.engines().bounces && !family.engines().search;
+  const bool is_solved = plastic && !is_figure(quantity);
   const std::size_t width = grid.axes[1].values.size();
   std::vector<double> values(table.rows());
   for (std::size_t row = 0; row < values.size(); ++row) {
@@ -147,7 +145,8 @@ std::vector<Contour> contours_of(const Grid& grid, const Table& table, Quantity 
     for (const double value : values) corners.push_back(side_of(value, level));
     const auto side_at = [&](const MapPoint& place) {
       return side_of(
-          plastic ? worked_out(family, quantity, place) : interpolated(grid, values, place), level);
+          is_solved ? worked_out(family, quantity, place) : interpolated(grid, values, place),
+          level);
     };
     contours.push_back({level, boundary_of_region(grid.axes[1], grid.axes[0], corners, side_at,
                                                   picture_accuracy)});

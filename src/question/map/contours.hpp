@@ -22,7 +22,8 @@ std::vector<double> round_levels(std::vector<double> values);
 /// The contours of the quantity at these levels. With plastic contact each point of the curves is
 /// solved, to 1e-6 of the picture. Beyond the end of hunting the quantity is replaced by its limit
 /// there, so contours of the amplitude continue to the hunting-free boundary. Where faces bounce,
-/// and where drives are searched, the quantity is interpolated between the grid's points.
+/// where drives are searched, and of figures that need no motion (bandwidth), which cost far more,
+/// the quantity is interpolated between the grid's points.
 /// Precondition: `table` belongs to the grid, whose two axes are y, x.
 std::vector<Contour> contours_of(const Grid& grid, const Table& table, Quantity quantity,
                                  const std::vector<double>& levels);

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <future>
-#include <mutex>
 #include <thread>
 
 #include "base/progress_part.hpp"
+#include "base/shared_progress.hpp"
 #include "question/family/followed_drives.hpp"
 
 namespace gearlash {
@@ -41,20 +41,6 @@ class PieceLength {
   bool may_change_;
 };
 
-/// Serializes the progress of two threads, the one that computes and the one that takes.
-class OneAtATime : public Progress {
- public:
-  explicit OneAtATime(Progress& progress) : progress_(progress) {}
-  bool go_on(double share, std::size_t bytes = 0) override {
-    const std::scoped_lock lock(hearing_);
-    return progress_.go_on(share, bytes);
-  }
-
- private:
-  Progress& progress_;
-  std::mutex hearing_;
-};
-
 struct WorkedOut {
   RowCount count;
   double seconds;
@@ -81,7 +67,7 @@ RowCount evaluate_in_pieces(const Grid& grid, std::span<const Quantity> quantiti
   const auto share_of = [&](std::size_t done) {
     return static_cast<double>(done) / static_cast<double>(points);
   };
-  OneAtATime heard(progress);
+  SerialProgress heard(progress);
   RowCount total;
   const auto is_stopped = [&] { return first < points && !heard.go_on(share_of(first)); };
   if (is_stopped()) {

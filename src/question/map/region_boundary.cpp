@@ -40,12 +40,9 @@ class BoundaryFinder {
  public:
   BoundaryFinder(const Axis& x, const Axis& y, std::span<const Side> corners, const SideAt& side_at,
                  const CurveAccuracy& accuracy, Progress& progress)
-      : x_(x),
-        y_(y),
-        corners_(corners),
-        side_at_(side_at),
-        accuracy_(accuracy),
-        progress_(progress, 1) {}
+      : x_(x), y_(y), corners_(corners), side_at_(side_at), accuracy_(accuracy), whole_(progress) {
+    progress_.emplace(progress, 1);
+  }
 
   std::vector<MapCurve> curves() {
     find_crossings();
@@ -65,7 +62,7 @@ class BoundaryFinder {
   EdgeId along_y(std::size_t column, std::size_t row) const { return along_x(column, row) + 1; }
 
   Side asked(const MapPoint& place) const {
-    return progress_.go_on(0.0) ? side_at_(place) : Side::unknown;
+    return progress_->go_on(0.0) ? side_at_(place) : Side::unknown;
   }
 
   void find_crossings();
@@ -85,14 +82,14 @@ class BoundaryFinder {
     return {value_at(x_, place.along), value_at(y_, place.up)};
   }
 
-  /// The boundary between a place inside and one outside, just inside; empty where the other side
+  /// The boundary between a place inside and one outside; empty where the other side
   /// turns out to be unknown.
   template <class At>
   std::optional<double> between(const At& at, double inside, double outside) const {
     const SideChange change = bisect_sides([&](double place) { return asked(at(place)); }, inside,
                                            outside, accuracy_.halvings);
     if (change.beyond == Side::unknown) return std::nullopt;
-    return change.place;
+    return accuracy_.is_midway ? 0.5 * (change.place + change.outside) : change.place;
   }
 
   const Axis& x_;
@@ -100,7 +97,8 @@ class BoundaryFinder {
   std::span<const Side> corners_;
   const SideAt& side_at_;
   CurveAccuracy accuracy_;
-  mutable SharedProgress progress_;
+  Progress& whole_;
+  mutable std::optional<SharedProgress> progress_;
   std::vector<Crossing> crossings_;
   std::unordered_map<EdgeId, MapPoint> points_;
 };
@@ -151,7 +149,11 @@ void BoundaryFinder::locate_edges() {
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   std::vector<std::optional<MapPoint>> places(edges.size());
-  on_threads(0, edges.size(), [&](std::size_t i) { places[i] = on_edge(edges[i]); });
+  progress_.emplace(whole_, std::max<std::size_t>(1, edges.size()));
+  on_threads(0, edges.size(), [&](std::size_t i) {
+    places[i] = on_edge(edges[i]);
+    progress_->finish(1);
+  });
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (places[i]) points_.emplace(edges[i], *places[i]);
   }
@@ -236,7 +238,8 @@ void BoundaryFinder::divide(const Place& from, const Place& to, MapCurve& points
 }
 
 /// The boundary on the perpendicular through the chord's middle, at most half the chord's length
-/// away. The region is on the left of the chord.
+/// away, or a tenth of the axes: the tip of a sharp corner may lie far from a short chord. The
+/// region is on the left of the chord.
 std::optional<Place> BoundaryFinder::across_middle(const Place& from, const Place& to) const {
   const Place middle{0.5 * (from.along + to.along), 0.5 * (from.up + to.up)};
   const Side side = asked(point_at(middle));
@@ -246,8 +249,11 @@ std::optional<Place> BoundaryFinder::across_middle(const Place& from, const Plac
     return Place{std::clamp(middle.along + turn * share * (to.up - from.up), 0.0, 1.0),
                  std::clamp(middle.up - turn * share * (to.along - from.along), 0.0, 1.0)};
   };
+  constexpr double farthest_tip = 0.1;  // beyond half the chord
+  const double length = std::hypot(to.along - from.along, to.up - from.up);
   double near = 0.0;
-  for (const double far : {1.0 / 64.0, 1.0 / 16.0, 1.0 / 4.0, 1.0 / 2.0}) {
+  for (const double far : {1.0 / 64.0, 1.0 / 16.0, 1.0 / 4.0, 1.0 / 2.0, 1.0, 2.0, 4.0}) {
+    if (far > 0.5 && far * length > farthest_tip) break;
     const Side there = asked(point_at(at(far)));
     if (there == Side::unknown) return std::nullopt;
     if (there == side) {

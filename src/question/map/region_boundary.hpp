@@ -30,7 +30,14 @@ struct CurveAccuracy {
   int halvings = 60;             ///< bisections along the line searched for the boundary
   double straightness = 2e-4;    ///< about the largest distance of the boundary from its chord
   double shortest_chord = 2e-3;  ///< shorter chords are not divided
+  /// Points lie between the last places inside and outside, so that two regions side by side have
+  /// the same border, found at the same places. Else they lie inside.
+  bool is_midway = false;
 };
+
+/// Accurate enough for a picture: 2⁻²⁴ of the plane.
+inline constexpr CurveAccuracy picture_accuracy{
+    .halvings = 24, .straightness = 3e-4, .shortest_chord = 4e-3};
 
 /// The boundary of the region of inside places, with the region on its left (x to the right, y
 /// upwards).

@@ -7,6 +7,7 @@ namespace gearlash {
 
 struct SideChange {
   double place = 0.0;           ///< the last place inside
+  double outside = 0.0;         ///< the first place beyond it
   Side beyond = Side::outside;  ///< the side beyond it
 };
 
@@ -22,7 +23,7 @@ SideChange bisect_sides(const SideAt& side_at, double inside, double outside, in
     if (side != Side::inside) beyond = side;
     (side == Side::inside ? inside : outside) = middle;
   }
-  return {inside, beyond};
+  return {inside, outside, beyond};
 }
 
 }  // namespace gearlash
