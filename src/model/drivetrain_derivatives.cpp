@@ -39,9 +39,7 @@ Slopes slopes_of_normal_form(const NormalForm& form, std::string_view path) {
 
 /// The terms of the formulas.
 struct Parts {
-  explicit Parts(const Drive& of) : drive(of) {
-    feedback = -drive::linear_controller(reduce(of).controller).direct[2];
-  }
+  explicit Parts(const Drive& of) : drive(of) { feedback = -reduce(of).controller.direct[2]; }
 
   const Drive& drive;
   double ratio = drive.gearbox.ratio;

@@ -200,16 +200,14 @@ LinearDrive<Number> made_of(const ReducedDrive& form, const drive::ReducedDriveO
   linear.position_share = form.sensing.load_share_of_position;
   linear.speed_share = form.sensing.load_share_of_speed;
   if (const auto* faces = std::get_if<drive::CompliantContactOf<Number>>(&numbers.contact)) {
-    linear.spring = {faces->stiffness, faces->damping};
+    linear.spring = *faces;
   }
   linear.torque = row_of(controller.direct, controller.output, form.has_rounded_lists);
   for (std::size_t i = 0; i < controller.order(); ++i) {
     linear.controller_states.push_back(
         row_of(controller.input_matrix[i], controller.state_matrix[i], form.has_rounded_lists));
   }
-  if (!form.sampling) return linear;
-  linear.period = numbers.sampling->period;
-  linear.counts = linear.uses_speed() && form.sampling->speed_by_differences;
+  linear.counts = form.sampling && linear.uses_speed() && form.sampling->speed_by_differences;
   return linear;
 }
 
@@ -285,16 +283,16 @@ template struct LinearDrive<double>;
 template struct LinearDrive<Interval>;
 
 LinearDrive<double> linear_drive(const ReducedDrive& drive) {
-  if (!drive.sampling) return made_of(drive, drive, drive::linear_controller(drive.controller));
-  const drive::Sampling& sampling = *drive.sampling;
-  LinearDrive<double> linear =
-      made_of(drive, drive, drive::sampled_controller(drive.controller, sampling));
-  linear.holds = held_torques(sampling);
+  LinearDrive<double> linear = made_of(drive, drive, drive::running_controller(drive));
+  if (!drive.sampling) return linear;
+  linear.period = drive.sampling->period;
+  linear.holds = held_torques(*drive.sampling);
   return linear;
 }
 
 LinearDrive<Interval> linear_drive(const EnclosedDrive& drive) {
   LinearDrive<Interval> linear = made_of(drive.form(), drive.numbers(), drive.controller());
+  linear.period = drive.period();
   linear.holds = drive.held_torques();
   return linear;
 }

@@ -118,12 +118,8 @@ struct LinearDrive {
   Number back_emf{0.0};
   Number electrical_time{0.0};
   bool lags = false;  ///< whether the winding delays the torque
-  struct Spring {
-    Number stiffness{0.0};
-    Number damping{0.0};
-  };
-  std::optional<Spring> spring{};  ///< of compliant faces
-  Number position_share{0.0};      ///< of the load in the sensed position
+  std::optional<drive::CompliantContactOf<Number>> spring{};  ///< of compliant faces
+  Number position_share{0.0};  ///< of the load in the sensed position
   Number speed_share{0.0};
   ControllerRow<Number> torque{};                          ///< requested
   std::vector<ControllerRow<Number>> controller_states{};  ///< their slopes, or their next values

@@ -18,7 +18,7 @@ ReducedDriveOf<Number> drive_of(const DrivetrainOf<Number>& drivetrain) {
   drive.backlash = drivetrain.backlash;
   drive.contact = RigidContactOf<Number>{drivetrain.restitution};
   drive.sensing.load_share_of_position = drivetrain.sensor == ShaftName::load ? 1.0 : 0.0;
-  drive.controller = ProportionalDerivativeOf<Number>{.proportional = drivetrain.stiffness};
+  drive.controller.direct = {drivetrain.stiffness, -drivetrain.stiffness, -0.0};
   return drive;
 }
 

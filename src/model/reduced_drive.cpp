@@ -114,8 +114,7 @@ ProportionalGains gains_of(const Drive& drive) {
   if (const auto* cascade = std::get_if<CascadeController>(&controller.law)) {
     return {cascade->position * cascade->speed, cascade->speed};
   }
-  const drive::LinearController linear =
-      drive::linear_controller(Reduction<AsRead>(drive).controller(1.0));
+  const drive::LinearController linear = Reduction<AsRead>(drive).controller(1.0);
   return {linear.direct[0], -linear.direct[2]};
 }
 

@@ -103,8 +103,7 @@ class ClosedFormMotion : public Motion::Source {
 
  private:
   static std::vector<double> gains_of(const drive::ReducedDrive& reduced) {
-    const auto direct = drive::linear_controller(reduced.controller).direct;
-    return {direct.begin(), direct.end()};
+    return reduced.controller.direct;
   }
 
   Shafts shafts_of(const ServoState& state) const {

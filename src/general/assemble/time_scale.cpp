@@ -19,16 +19,16 @@ using hybrid::Matrix;
 constexpr double turn = 2.0 * std::numbers::pi;
 
 /// A relay by its describing function at an amplitude of its threshold, or of half the gap.
-Controller linear_relay(const ReducedDrive& drive) {
-  const auto& relay = std::get<ProportionalDerivative>(drive.controller);
-  const double gain = 4.0 / std::numbers::pi * relay.proportional;
+LinearController linear_relay(const ReducedDrive& drive) {
+  const double gain = 4.0 / std::numbers::pi * drive.controller.direct[0];
   if (drive.error_shape.is_of_speed) {
     constexpr double some = 1.0;  // rad/s, for a relay without thresholds
     const double speed = drive.error_shape.begins > 0.0 ? drive.error_shape.begins : some;
-    return ProportionalDerivative{.derivative = gain / speed};
+    return {.direct = {0.0, 0.0, -gain / speed}};
   }
   const double amplitude = std::max(drive.error_shape.begins, 0.5 * drive.backlash);
-  return ProportionalDerivative{.proportional = amplitude > 0.0 ? gain / amplitude : gain};
+  const double stiffness = amplitude > 0.0 ? gain / amplitude : gain;
+  return {.direct = {stiffness, -stiffness, 0.0}};
 }
 
 /// The drive without its nonlinearities other than the gap.

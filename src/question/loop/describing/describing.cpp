@@ -71,8 +71,8 @@ RationalFunction rate(const Sampling& sampling, double share) {
 /// would have tiny coefficients where terms cancel.
 ExactControllerTransfer sampled_transfer(const ReducedDrive& drive, TorqueGiven torque) {
   const Sampling& sampling = *drive.sampling;
-  ExactControllerTransfer transfer = exact_transfer(linear_controller(drive.controller), torque);
-  if (std::holds_alternative<SampledTransfer>(drive.controller)) {
+  ExactControllerTransfer transfer = exact_transfer(drive.controller, torque);
+  if (drive.controller.is_of_samples) {
     transfer.position = by_frequency(transfer.position, sampling.period);
     return transfer;  // it has neither speed nor anti-windup
   }
@@ -105,8 +105,7 @@ RationalFunction lag_of(const Winding& winding) {
 /// Of the torque as the winding gives it; of the requested torque where that may be limited.
 Feedback feedback_of(const ReducedDrive& drive, TorqueGiven torque) {
   ExactControllerTransfer transfer =
-      drive.sampling ? sampled_transfer(drive, torque)
-                     : exact_transfer(linear_controller(drive.controller), torque);
+      drive.sampling ? sampled_transfer(drive, torque) : exact_transfer(drive.controller, torque);
   RationalFunction speed_by_position = variable();
   double delay = 0.0;
   if (drive.sampling) {
@@ -336,11 +335,8 @@ DescribingAnalysis described_coulomb_friction(const ReducedDrive& drive) {
 
 /// The drive whose controller does not receive the speed.
 ReducedDrive without_speed(ReducedDrive drive) {
-  if (std::holds_alternative<SampledTransfer>(drive.controller)) return drive;  // it does not
-  LinearController linear = linear_controller(drive.controller);
-  for (std::vector<double>& row : linear.input_matrix) row[2] = 0.0;
-  linear.direct[2] = 0.0;
-  drive.controller = linear;
+  for (std::vector<double>& row : drive.controller.input_matrix) row[2] = 0.0;
+  drive.controller.direct[2] = 0.0;
   return drive;
 }
 

@@ -31,16 +31,11 @@ struct StandingRequests {
   std::vector<Vector2d> directions;  ///< none, one, or two that span all
 };
 
-LinearController controller_of(const ReducedDrive& drive) {
-  return drive.sampling ? drive::sampled_controller(drive.controller, *drive.sampling)
-                        : drive::linear_controller(drive.controller);
-}
-
 /// Of z′ = A z + B (r, y) + w (τ − C z − D (r, y)), 0 at rest, or z with a clock, where τ is the
 /// limit and w the anti-windup's; empty where no state stands. `limit`: ±torque limit, or none.
 std::optional<StandingRequests> standing_requests(const ReducedDrive& drive, double reference,
                                                   std::optional<double> limit) {
-  const LinearController controller = controller_of(drive);
+  const LinearController controller = drive::running_controller(drive);
   const std::size_t order = controller.order();
   const auto size = static_cast<Eigen::Index>(order);
   const auto weight = [&](std::size_t i) {
@@ -89,7 +84,7 @@ std::optional<StandingRequests> standing_requests(const ReducedDrive& drive, dou
 /// above the one with which the controller stands: C v α, where A v = 0 and A z + B_y = α v. 0
 /// where the controller has no integral, or more than one.
 double winding_rate(const ReducedDrive& drive) {
-  const LinearController controller = controller_of(drive);
+  const LinearController controller = drive::running_controller(drive);
   const auto size = static_cast<Eigen::Index>(controller.order());
   Eigen::MatrixXd matrix(size, size + 1);
   VectorXd by_reading(size);
@@ -193,7 +188,8 @@ class Equilibria {
       const auto requests = standing_requests(drive_, reference_, limit);
       for (const ErrorBranch& branch : branches_of(drive_.error_shape)) {
         if (requests) add_with(level, branch, *requests);
-        if (!limit || controller_of(drive_).anti_windup.empty()) add_winding(level, branch);
+        if (!limit || drive::running_controller(drive_).anti_windup.empty())
+          add_winding(level, branch);
       }
     }
     return pieces_;
