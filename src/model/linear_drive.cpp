@@ -226,6 +226,16 @@ IntervalMatrix flow_of(const LinearSystem<Interval>& system) {
   return flow;
 }
 
+Eigen::MatrixXd flow_of(const LinearSystem<double>& system) {
+  const auto size = static_cast<Eigen::Index>(system.size());
+  Eigen::MatrixXd flow(size, size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const std::vector<double>& row = system.slopes[static_cast<std::size_t>(i)].of_state;
+    flow.row(i) = Eigen::Map<const Eigen::RowVectorXd>(row.data(), size);
+  }
+  return flow;
+}
+
 template <class Number>
 bool LinearDrive<Number>::uses_speed() const {
   return !is_exactly(torque.speed, 0.0) ||
@@ -261,14 +271,21 @@ LinearForm<Number> LinearDrive<Number>::worked_out(const ControllerRow<Number>& 
 }
 
 template <class Number>
-LinearSystem<Number> LinearDrive<Number>::loop() const {
+LinearSystem<Number> LinearDrive<Number>::open() const {
   const LinearSystem<Number> mechanics = plant();
   const std::size_t first = mechanics.size();
-  LinearSystem<Number> loop = extended(mechanics, first + order());
-  const LinearForm<Number> requested = worked_out(torque, loop.position, loop.speed, first);
+  LinearSystem<Number> open = extended(mechanics, first + order());
   for (std::size_t i = 0; i < order(); ++i) {
-    loop.slopes[first + i] = worked_out(controller_states[i], loop.position, loop.speed, first);
+    open.slopes[first + i] = worked_out(controller_states[i], open.position, open.speed, first);
   }
+  open.effort = worked_out(torque, open.position, open.speed, first);
+  return open;
+}
+
+template <class Number>
+LinearSystem<Number> LinearDrive<Number>::loop() const {
+  LinearSystem<Number> loop = open();
+  const LinearForm<Number> requested = loop.effort;
   for (LinearForm<Number>* form : forms_of(loop)) {
     const Number share = std::exchange((*form)[LinearInput::torque], Number(0.0));
     if (!is_exactly(share, 0.0)) *form = std::move(*form) + share * requested;

@@ -12,6 +12,7 @@
 #include "model/enclosed_drive.hpp"
 #include "model/held_torques.hpp"
 #include "numeric/interval_algebra.hpp"
+#include "numeric/linear_algebra.hpp"
 #include "numeric/vector_algebra.hpp"
 
 namespace gearlash {
@@ -96,6 +97,7 @@ struct LinearSystem {
 
 /// The slopes by the states.
 IntervalMatrix flow_of(const LinearSystem<Interval>& system);
+Eigen::MatrixXd flow_of(const LinearSystem<double>& system);
 
 /// What the controller works out by its own states, and by what it receives: reference and position
 /// together, the position's deviation from the reference, and the speed.
@@ -136,7 +138,10 @@ struct LinearDrive {
 
   /// The mechanics and the winding, under the input `torque`.
   LinearSystem<Number> plant() const;
-  /// The same with a continuous controller, whose states come last, in place of that input.
+  /// The same with a continuous controller, whose states come last. The input is still `torque`,
+  /// the effort is what the controller requests.
+  LinearSystem<Number> open() const;
+  /// With the controller in place of that input.
   LinearSystem<Number> loop() const;
   /// A row of the controller, whose states begin at `first` among those of the forms.
   LinearForm<Number> worked_out(const ControllerRow<Number>& row,
