@@ -237,7 +237,8 @@ inline bool has_linear_control(const ReducedDrive& drive) {
 /// Whether a sine reference or load torque drives the oscillation, which then is not hunting.
 bool is_driven(const ReducedDrive& drive);
 
-/// Every fault in the ranges above.
+/// What forbids to simulate the drive that a sound gearlash::Drive was reduced to. Its single
+/// numbers are in the ranges above by those of that drive.
 std::vector<Fault> faults(const ReducedDrive& drive);
 
 }  // namespace gearlash::drive

@@ -19,22 +19,8 @@ namespace {
 /// The path of a parameter by its name in drive::faults().
 std::string path_of(const std::string& name) {
   static const std::vector<std::pair<std::string, std::string>> names = {
-      {"motor.viscous", "motor.friction"},
-      {"load.viscous", "load.friction"},
       {"backlash", "gearbox.backlash"},
-      {"torque_limit", "motor.torque_limit"},
-      {"winding.time_constant", "motor.inductance"},
-      {"winding.torque_limit", "motor.current_limit"},
-      {"error_shape.begins", "controller.dead_band"},
-      {"error_shape.ends", "controller.dead_band"},
       {"error_shape.hysteresis", "controller.hysteresis"},
-      {"feedforward.torque", "controller.friction_compensation"},
-      {"feedforward.speed", "controller.friction_speed"},
-      {"feedforward.half_gap", "controller.backlash_compensation"},
-      {"feedforward.take_up_time", "controller.take_up_time"},
-      {"winding.back_emf", "motor.back_emf_constant"},
-      {"sensing.resolution", "sensor.resolution"},
-      {"sensing.resolution_of_speed", "sensor.speed_resolution"},
       {"controller.denominator", "controller.den"},
       {"controller.state_matrix", "controller.A"},
       {"controller.input_matrix", "controller.B"},
