@@ -28,11 +28,6 @@ bool is_smooth(const ReducedDrive& drive) {
 
 }  // namespace
 
-std::optional<Drivetrain> proportional_servo(const ReducedDrive& drive) {
-  const std::optional<Drivetrain> drivetrain = proportional_drivetrain(drive);
-  return drivetrain && faults(*drivetrain).empty() ? drivetrain : std::nullopt;
-}
-
 std::optional<Drivetrain> proportional_drivetrain(const ReducedDrive& drive) {
   const auto* rigid = std::get_if<RigidContact>(&drive.contact);
   if (rigid == nullptr || !is_smooth(drive) || !is_undisturbed(drive)) return std::nullopt;

@@ -25,11 +25,8 @@ ReducedDriveOf<Number> drive_of(const DrivetrainOf<Number>& drivetrain) {
 /// The servo of the closed form that is equivalent to a drive: proportional control of the load's
 /// position, continuous, read exactly and without limit, rigid faces, no dry friction, a constant
 /// reference, no load torque. The speed may be fed back from the motor alone, which counts as
-/// friction on it. Empty for any other drive. Precondition: faults(drive) is empty.
-std::optional<Drivetrain> proportional_servo(const ReducedDrive& drive);
-
-/// The same without the check that its numbers are within the ranges of the closed form.
-/// Precondition: the controller is sound.
+/// friction on it. Empty for any other drive. Its numbers may be beyond the ranges of the closed
+/// form. Precondition: the controller is sound.
 std::optional<Drivetrain> proportional_drivetrain(const ReducedDrive& drive);
 
 }  // namespace gearlash::drive
