@@ -19,11 +19,11 @@ namespace gearlash::drive {
 /// τ_asked within the motor's limit.
 template <class Number>
 struct LinearControllerOf {
-  std::vector<std::vector<Number>> state_matrix{};  ///< n rows of n
-  std::vector<std::vector<Number>> input_matrix{};  ///< n rows of 3
-  std::vector<Number> output{};                     ///< n
-  std::vector<Number> direct{0.0, 0.0, 0.0};        ///< 3
-  std::vector<Number> anti_windup{};                ///< n, or none
+  std::vector<std::vector<Number>> state_matrix{};                   ///< n rows of n
+  std::vector<std::vector<Number>> input_matrix{};                   ///< n rows of 3
+  std::vector<Number> output{};                                      ///< n
+  std::vector<Number> direct = std::vector<Number>(3, Number(0.0));  ///< 3
+  std::vector<Number> anti_windup{};                                 ///< n, or none
   /// Whether z′ is the next z, from sample to sample; else the slope of z.
   bool is_of_samples = false;
 

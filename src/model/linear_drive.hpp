@@ -99,16 +99,6 @@ struct LinearSystem {
 IntervalMatrix flow_of(const LinearSystem<Interval>& system);
 Eigen::MatrixXd flow_of(const LinearSystem<double>& system);
 
-/// What the controller works out by its own states, and by what it receives: reference and position
-/// together, the position's deviation from the reference, and the speed.
-template <class Number>
-struct ControllerRow {
-  std::vector<Number> of_state{};
-  Number reference{0.0};  ///< 0 where it knows reference and position by their difference alone
-  Number position{0.0};
-  Number speed{0.0};
-};
-
 /// The numbers of shafts, winding, faces, sensors and controller, at the load's shaft.
 template <class Number>
 struct LinearDrive {
@@ -123,14 +113,15 @@ struct LinearDrive {
   std::optional<drive::CompliantContactOf<Number>> spring{};  ///< of compliant faces
   Number position_share{0.0};  ///< of the load in the sensed position
   Number speed_share{0.0};
-  ControllerRow<Number> torque{};                          ///< requested
-  std::vector<ControllerRow<Number>> controller_states{};  ///< their slopes, or their next values
+  /// As it runs, by (r, y, v) where r is the reference and an equal position together: 0 where the
+  /// controller knows them by their difference alone.
+  drive::LinearControllerOf<Number> controller{};
   // Of a sampled controller.
   Number period{0.0};
   std::vector<HeldTorqueOf<Number>> holds{};  ///< none: continuous
   bool counts = false;                        ///< the speed is a difference of positions
 
-  std::size_t order() const { return controller_states.size(); }
+  std::size_t order() const { return controller.order(); }
   /// Whether the controller's torque depends on the sensed speed.
   bool uses_speed() const;
   /// Whether the controller knows reference and position by their difference alone.
@@ -143,8 +134,10 @@ struct LinearDrive {
   LinearSystem<Number> open() const;
   /// With the controller in place of that input.
   LinearSystem<Number> loop() const;
-  /// A row of the controller, whose states begin at `first` among those of the forms.
-  LinearForm<Number> worked_out(const ControllerRow<Number>& row,
+  /// What the controller works out by its states, which begin at `first` among those of the forms,
+  /// and its inputs.
+  LinearForm<Number> worked_out(const std::vector<Number>& of_state,
+                                const std::vector<Number>& of_inputs,
                                 const LinearForm<Number>& position, const LinearForm<Number>& speed,
                                 std::size_t first) const;
 };

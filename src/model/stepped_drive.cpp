@@ -44,7 +44,7 @@ class Stepping {
         last_counted_(plant_.size() + drive.order()),
         queue_(last_counted_ + (drive.counts ? 1 : 0)),
         size_(queue_ + drive.holds.front().age),
-        asked_(worked_out(drive.torque)),
+        asked_(worked_out(drive.controller.output, drive.controller.direct)),
         now_(asked_),
         parts_(parts) {
     if (torque == TorqueInput::requested) return;
@@ -58,8 +58,9 @@ class Stepping {
     for (const HeldTorqueOf<Number>& hold : drive_.holds) {
       pass(hold, hold.age == 0 ? now_ : state(queue_ + hold.age - 1), states);
     }
-    for (const ControllerRow<Number>& row : drive_.controller_states) {
-      states.push_back(worked_out(row));
+    const drive::LinearControllerOf<Number>& controller = drive_.controller;
+    for (std::size_t i = 0; i < controller.order(); ++i) {
+      states.push_back(worked_out(controller.state_matrix[i], controller.input_matrix[i]));
     }
     if (drive_.counts) {
       states.push_back(of_tick(plant_.counted));
@@ -89,8 +90,9 @@ class Stepping {
     change.of_state[last_counted_] = Number(-1.0);
     return Number(1.0) / drive_.period * std::move(change);
   }
-  Form worked_out(const ControllerRow<Number>& row) const {
-    return drive_.worked_out(row, of_tick(plant_.position), sensed_speed(), plant_.size());
+  Form worked_out(const std::vector<Number>& of_state, const std::vector<Number>& of_inputs) const {
+    return drive_.worked_out(of_state, of_inputs, of_tick(plant_.position), sensed_speed(),
+                             plant_.size());
   }
 
   /// The plant over a hold with one torque.
@@ -144,13 +146,14 @@ LinearForm<Number> combination(const std::vector<Number>& row,
 }
 
 template <class Number>
-SteppedDrive<Number> stepped(const LinearDrive<Number>& drive, TorqueInput torque, int parts) {
+SteppedDrive<Number> stepped_drive(const LinearDrive<Number>& drive, TorqueInput torque,
+                                   int parts) {
   return Stepping<Number>(drive, torque, parts).run();
 }
 
 template LinearForm<Interval> combination(const std::vector<Interval>&,
                                           const std::vector<LinearForm<Interval>>&, std::size_t);
-template SteppedDrive<double> stepped(const LinearDrive<double>&, TorqueInput, int);
-template SteppedDrive<Interval> stepped(const LinearDrive<Interval>&, TorqueInput, int);
+template SteppedDrive<double> stepped_drive(const LinearDrive<double>&, TorqueInput, int);
+template SteppedDrive<Interval> stepped_drive(const LinearDrive<Interval>&, TorqueInput, int);
 
 }  // namespace gearlash

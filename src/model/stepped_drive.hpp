@@ -41,6 +41,7 @@ enum class TorqueInput {
 
 /// Each hold is divided into `parts` of equal length. Precondition: a sampled drive.
 template <class Number>
-SteppedDrive<Number> stepped(const LinearDrive<Number>& drive, TorqueInput torque, int parts = 1);
+SteppedDrive<Number> stepped_drive(const LinearDrive<Number>& drive, TorqueInput torque,
+                                   int parts = 1);
 
 }  // namespace gearlash

@@ -40,7 +40,7 @@ std::vector<std::complex<double>> all_eigenvalues(ReducedDrive drive) {
     return values;
   }
   const Eigen::VectorXcd all =
-      eigenvalues(balanced(flow_of(stepped(linear, TorqueInput::requested).step)));
+      eigenvalues(balanced(flow_of(stepped_drive(linear, TorqueInput::requested).step)));
   for (const std::complex<double>& value : all) {
     constexpr double dead_beat = 1e-12;  // decays below rounding within one sample
     if (std::abs(value) > dead_beat) values.push_back(std::log(value) / linear.period);

@@ -44,7 +44,7 @@ class LoopTransfer {
  public:
   explicit LoopTransfer(const LinearDrive<double>& drive) : period_(drive.period) {
     const LinearSystem<double> open =
-        drive.holds.empty() ? drive.open() : stepped(drive, TorqueInput::open).step;
+        drive.holds.empty() ? drive.open() : stepped_drive(drive, TorqueInput::open).step;
     flow_ = flow_of(open);
     inputs_.resize(flow_.rows(), 2);
     for (Eigen::Index i = 0; i < flow_.rows(); ++i) {

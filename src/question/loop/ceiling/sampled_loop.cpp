@@ -86,7 +86,7 @@ class SampledLoop : public DisturbedLoop {
   LinearDrive<Interval> drive_;
   LinearSystem<Interval> plant_;
   IntervalMatrix flow_;  ///< of the plant
-  SteppedDrive<Interval> at_ticks_ = stepped(drive_, TorqueInput::requested);
+  SteppedDrive<Interval> at_ticks_ = stepped_drive(drive_, TorqueInput::requested);
   int spread_parts_ = 1;
   std::optional<DecayingMotion> motion_;
 };
@@ -108,7 +108,7 @@ bool SampledLoop::prove() {
   const Interval curvature = norms(spread.vectors[1], {load.forms.front()}).front();
   spread_parts_ = parts(spread.weights[1] * curvature, extent.at_ends);
   if (const int needed = parts(extent.bend, extent.at_ends); needed > 1) {
-    at_ticks_ = stepped(drive_, TorqueInput::requested, needed);
+    at_ticks_ = stepped_drive(drive_, TorqueInput::requested, needed);
   }
   return true;
 }
@@ -303,7 +303,7 @@ bool loop_decays(const LinearDrive<Interval>& drive) {
   const auto motion =
       drive.holds.empty()
           ? DecayingMotion::of(flow_of(drive.loop()), TimeKind::continuous)
-          : DecayingMotion::of(changes_of(stepped(drive, TorqueInput::requested).step),
+          : DecayingMotion::of(changes_of(stepped_drive(drive, TorqueInput::requested).step),
                                TimeKind::stepwise);
   return motion.has_value();
 }
