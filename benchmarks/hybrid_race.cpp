@@ -15,6 +15,7 @@
 #include "general/assemble/drive_system.hpp"
 #include "hybrid/hybrid_trajectory.hpp"
 #include "hybrid/servo_system.hpp"
+#include "model/controller_forms.hpp"
 #include "odeint_rival.hpp"
 
 namespace gearlash::benchmarks {
@@ -111,11 +112,15 @@ drive::ReducedDrive sampled_drive() {
   drive.motor = {2e-3, {.viscous = 0.01, .coulomb = 0.02, .breakaway = 0.02}};
   drive.load = {4e-3, {.viscous = 0.01, .coulomb = 0.02, .breakaway = 0.02}};
   drive.backlash = 0.02;
-  drive.contact = drive::CompliantContact{
-      .stiffness = 200.0, .damping = 0.2, .law = drive::ContactDamping::full};
-  drive.controller = drive::ProportionalIntegralDerivative{
-      .proportional = 2.0, .integral = 5.0, .derivative = 0.1, .derivative_of_speed = true};
-  drive.sampling = drive::Sampling{.period = 1e-3, .speed_by_differences = false};
+  drive.contact =
+      drive::CompliantContact{.stiffness = 200.0, .damping = 0.2, .law = ContactDamping::full};
+  drive.controller = drive::forms::linear(PID{.terms = PIDTerms::PID,
+                                              .proportional = 2.0,
+                                              .integral = 5.0,
+                                              .derivative = 0.1,
+                                              .derivative_of_speed = true},
+                                          AsRead(), 1.0);
+  drive.sampling = Sampling{.period = 1e-3, .speed_by_differences = false};
   drive.reference = 0.5;
   return drive;
 }

@@ -99,7 +99,7 @@ nlohmann::ordered_json drive_of_page(const ServoOptions& options, WrittenDrive w
     settings.push_back(nlohmann::ordered_json::array({setting.path, as_utf8(setting.text)}));
   }
   for (nlohmann::ordered_json& table : tables.settings) settings.push_back(std::move(table));
-  return {{"toml", read_text_file(options.file, largest_drive_file)},
+  return {{"toml", std::move(written.text)},
           {"name", as_utf8(fs::path(options.file).filename().string())},
           {"settings", std::move(settings)},
           {"files", std::move(tables.files)}};

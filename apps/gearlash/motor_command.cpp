@@ -3,7 +3,6 @@
 
 #include "command.hpp"
 #include "input/units.hpp"
-#include "input/written_texts.hpp"
 #include "motor_procedure.hpp"
 #include "output/output_file.hpp"
 #include "servo_options.hpp"
@@ -33,7 +32,7 @@ ExitStatus run(const ServoOptions& options, const Provenance&) {
   const Drive drive = closed_form_drive(*written, options);
   // With --set the texts of the file no longer apply.
   std::map<std::string, std::string> texts;
-  if (options.settings.empty()) texts = written_texts(options.file);
+  if (options.settings.empty()) texts = written->texts;
   write_file("-", motor_procedure(drive, written->angle, texts));
   return ExitStatus::done;
 }

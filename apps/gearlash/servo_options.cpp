@@ -290,14 +290,19 @@ WrittenDrive read_drive_as_typed(const ServoOptions& options, std::vector<Settin
   if (options.file.empty()) {
     return parse_drive(source.text, source.name, source.folder, settings);
   }
-  const bool is_normal_form = has_normal_form(source.text, source.name);
-  for (const NumberOption& option : number_options) {
-    const bool is_of_both =
-        option.typed == &ServoOptions::backlash || option.typed == &ServoOptions::restitution;
-    if (is_normal_form || is_of_both) add_setting(option, options, is_normal_form, settings);
-  }
-  if (options.sensor) settings.push_back({"sensor.position", *options.sensor});
-  const WrittenDrive written = parse_drive(source.text, source.name, source.folder, settings);
+  bool is_normal_form = false;
+  const auto settings_of_form = [&](bool is_form) {
+    is_normal_form = is_form;
+    for (const NumberOption& option : number_options) {
+      const bool is_of_both =
+          option.typed == &ServoOptions::backlash || option.typed == &ServoOptions::restitution;
+      if (is_form || is_of_both) add_setting(option, options, is_form, settings);
+    }
+    if (options.sensor) settings.push_back({"sensor.position", *options.sensor});
+    return settings;
+  };
+  const WrittenDrive written =
+      parse_drive_by_form(source.text, source.name, source.folder, settings_of_form);
   const bool has_more = options.damping || options.inertia_ratio || options.friction_ratio;
   return is_normal_form || !has_more ? written : changed_normal_form(written, options);
 }

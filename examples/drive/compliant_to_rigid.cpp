@@ -9,6 +9,7 @@
 
 #include "general/attractors/attractors.hpp"
 
+using gearlash::ContactDamping;
 using namespace gearlash::drive;
 
 namespace {
@@ -20,7 +21,7 @@ ReducedDrive thesis_servo(const Contact& contact) {
   drive.load = {.inertia = 2.0 / 3.0, .friction = {.viscous = 0.38 * 0.1}};
   drive.backlash = 0.3;
   drive.contact = contact;
-  drive.controller = ProportionalDerivative{.proportional = 1.0};
+  drive.controller.direct = {1.0, -1.0, 0.0};
   return drive;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "gearlash/input.hpp"
 #include "input/drive_reader.hpp"
@@ -100,20 +101,33 @@ void apply(TomlDocument& document, const Setting& setting) {
   }
 }
 
-/// The text with its settings applied.
-TomlDocument document_with(std::string_view toml, std::string_view source_name,
-                           const std::vector<Setting>& settings,
-                           std::size_t most_bytes = largest_drive_file) {
-  TomlDocument document(toml, source_name, most_bytes);
+std::map<std::string, std::string> texts_of(const TomlDocument& document) {
+  std::map<std::string, std::string> texts;
+  for (const auto& [section, node] : document.root()) {
+    const toml::table* table = node.as_table();
+    if (table == nullptr) continue;
+    for (const auto& [key, value] : *table) {
+      const auto* written = value.as_string();
+      if (written == nullptr) continue;
+      texts[std::string(section.str()) + "." + std::string(key.str())] = written->get();
+    }
+  }
+  return texts;
+}
+
+/// The contents of a document with settings.
+WrittenDrive contents_of(TomlDocument& document, const std::vector<Setting>& settings,
+                         const std::filesystem::path& folder, BareNumbers bare_numbers) {
+  std::map<std::string, std::string> texts = texts_of(document);
   for (const Setting& setting : settings) apply(document, setting);
-  return document;
+  Findings findings(document);
+  WrittenDrive written = read_drive(document, findings, folder, {}, bare_numbers);
+  findings.require_none();
+  written.texts = std::move(texts);
+  return written;
 }
 
 }  // namespace
-
-bool has_normal_form(std::string_view toml, std::string_view source_name) {
-  return document_with(toml, source_name, {}).root().contains("servo");
-}
 
 WrittenDrive parse_drive(std::string_view toml, std::string_view source_name,
                          const std::filesystem::path& folder, const std::vector<Setting>& settings,
@@ -122,10 +136,18 @@ WrittenDrive parse_drive(std::string_view toml, std::string_view source_name,
   const std::size_t most_bytes = bare_numbers == BareNumbers::in_si
                                      ? std::numeric_limits<std::size_t>::max()
                                      : largest_drive_file;
-  const TomlDocument document = document_with(toml, source_name, settings, most_bytes);
-  Findings findings(document);
-  WrittenDrive written = read_drive(document, findings, folder, {}, bare_numbers);
-  findings.require_none();
+  TomlDocument document(toml, source_name, most_bytes);
+  return contents_of(document, settings, folder, bare_numbers);
+}
+
+WrittenDrive parse_drive_by_form(std::string_view toml, std::string_view source_name,
+                                 const std::filesystem::path& folder,
+                                 const SettingsOfForm& settings) {
+  TomlDocument document(toml, source_name, largest_drive_file);
+  const bool is_normal_form = document.root().contains("servo");
+  WrittenDrive written =
+      contents_of(document, settings(is_normal_form), folder, BareNumbers::refused);
+  written.text = toml;
   return written;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +21,10 @@ struct WrittenDrive {
   AngleUnit angle;  ///< unit of the backlash in the file
   /// Parameters with tolerances, in the order of the file; the drive holds their nominal values.
   std::vector<ParameterTolerance> tolerances;
+  std::string text{};  ///< TOML, of parse_drive_by_form()
+  /// "motor.inertia" -> "0.61 oz in2", "reference.file" -> "steps.csv": the text values of all
+  /// sections, without settings.
+  std::map<std::string, std::string> texts{};
 };
 
 /// One parameter's path and its value as text: a number with its unit, a word or a TOML list.
@@ -46,10 +52,12 @@ WrittenDrive parse_drive(std::string_view toml, std::string_view source_name,
                          const std::filesystem::path& folder,
                          const std::vector<Setting>& settings = {},
                          BareNumbers bare_numbers = BareNumbers::refused);
-
-/// Whether the text gives the servo in its normal form, that is, has the section [servo]. Throws
-/// InvalidInput for text that is not TOML.
-bool has_normal_form(std::string_view toml, std::string_view source_name);
+/// The same with settings by whether the text gives the servo in its normal form, that is, has the
+/// section [servo].
+using SettingsOfForm = std::function<std::vector<Setting>(bool is_normal_form)>;
+WrittenDrive parse_drive_by_form(std::string_view toml, std::string_view source_name,
+                                 const std::filesystem::path& folder,
+                                 const SettingsOfForm& settings);
 
 /// Reads "PATH=VALUE". "PATH=none" removes a key, "SECTION=none" a section. Throws InvalidInput for
 /// text without "=", and for an unknown path, with the nearest known one.

@@ -1,87 +1,15 @@
 #include "model/controller.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
-#include <utility>
 
 #include "base/range_check.hpp"
-#include "model/controller_forms.hpp"
-#include "numeric/linear_algebra.hpp"
+#include "model/sampled_controller.hpp"
 
 namespace gearlash::drive {
-namespace {
-
-// ---- checks -------------------------------------------------------------------------------------
-
-using forms::without_leading_zeros;
-
-/// Work and memory grow with its cube, and coefficients of a higher order lose their digits.
-constexpr std::size_t highest_order = 64;
-
-void expect_permitted_order(RangeCheck& check, const char* field, std::size_t order) {
-  if (order <= highest_order) return;
-  check.refuse(field, "of order " + std::to_string(order),
-               "must be of order at most " + std::to_string(highest_order) + " (order " +
-                   std::to_string(order) + ")");
-}
-
-void inspect(RangeCheck& check, const ProportionalDerivative& controller) {
-  check.finite("proportional", controller.proportional);
-  check.finite("derivative", controller.derivative);
-}
-
-void inspect(RangeCheck& check, const ProportionalIntegralDerivative& controller) {
-  inspect(check, ProportionalDerivative{controller.proportional, controller.derivative});
-  check.finite("integral", controller.integral);
-  check.not_negative("filter", controller.filter, "s");
-  check.not_negative("tracking_time", controller.tracking_time, "s");
-}
-
-void inspect(RangeCheck& check, const Cascade& controller) {
-  check.finite("position", controller.position);
-  check.finite("speed", controller.speed);
-  check.finite("speed_integral", controller.speed_integral);
-  check.not_negative("tracking_time", controller.tracking_time, "s");
-  check.not_negative("filter", controller.filter, "s");
-}
-
-void inspect(RangeCheck& check, const LeadLag& controller) {
-  check.finite("gain", controller.gain);
-  check.positive("zero", controller.zero, "rad/s");
-  check.positive("pole", controller.pole, "rad/s");
-}
-
-void expect_proper(RangeCheck& check, const TransferFunction& function) {
-  std::vector<Fault> found = faults(function);
-  for (Fault& fault : found) fault.path = "controller." + fault.path;
-  check.include(found);
-  if (!found.empty()) return;
-  const std::size_t numerator = without_leading_zeros(function.numerator).size();
-  const std::size_t denominator = without_leading_zeros(function.denominator).size();
-  expect_permitted_order(check, "denominator", denominator - 1);
-  if (numerator > denominator) {
-    check.refuse("numerator", "of degree " + std::to_string(numerator - 1),
-                 "must be of no higher degree than the denominator (" +
-                     std::to_string(denominator - 1) +
-                     "): a controller cannot differentiate its input");
-  }
-}
-
-void inspect(RangeCheck& check, const ErrorTransfer& controller) {
-  expect_proper(check, controller.function);
-  if (controller.function.delay != 0.0) {
-    check.refuse("delay", exact_text(controller.function.delay),
-                 "must be 0: a continuous controller has no delay");
-  }
-}
-
-void inspect(RangeCheck& check, const SampledTransfer& controller) {
-  expect_proper(check, {controller.numerator, controller.denominator});
-}
-
-void inspect(RangeCheck& check, const LinearController& controller) {
+std::vector<Fault> faults(const LinearController& controller) {
+  RangeCheck check("controller.");
   const std::size_t order = controller.order();
   const auto expect = [&](const char* field, std::size_t found, std::size_t wanted,
                           const char* what) {
@@ -99,7 +27,11 @@ void inspect(RangeCheck& check, const LinearController& controller) {
       expect_numbers(field, row);
     }
   };
-  expect_permitted_order(check, "state_matrix", order);
+  if (order > highest_order) {
+    check.refuse("state_matrix", "of order " + std::to_string(order),
+                 "must be of order at most " + std::to_string(highest_order) + " (order " +
+                     std::to_string(order) + ")");
+  }
   expect_numbers("output", controller.output);
   expect_numbers("direct", controller.direct);
   expect_numbers("anti_windup", controller.anti_windup);
@@ -111,46 +43,30 @@ void inspect(RangeCheck& check, const LinearController& controller) {
     expect("anti_windup", controller.anti_windup.size(), order,
            " numbers, as many as the output has");
   }
-}
-
-}  // namespace
-
-std::vector<Fault> faults(const Controller& controller) {
-  RangeCheck check("controller.");
-  std::visit([&](const auto& one) { inspect(check, one); }, controller);
   return check.faults();
-}
-
-LinearController linear_controller(const Controller& controller) {
-  return forms::linear_controller<double>(controller);
-}
-
-LinearControllerOf<Interval> linear_controller(const ControllerOf<Interval>& controller) {
-  return forms::linear_controller<Interval>(controller);
 }
 
 double share_of_end(Discretization method) {
   return method == Discretization::tustin ? 0.5 : method == Discretization::backward ? 1.0 : 0.0;
 }
 
-LinearController sampled_controller(const Controller& controller, const Sampling& sampling) {
-  return forms::sampled_controller<double>(controller, sampling);
+LinearController sampled_controller(const LinearController& controller, const Sampling& sampling) {
+  return forms::sampled(controller, sampling.period, sampling.method);
 }
 
-LinearControllerOf<Interval> sampled_controller(const ControllerOf<Interval>& controller,
-                                                const SamplingOf<Interval>& sampling) {
-  return forms::sampled_controller<Interval>(controller, sampling);
+LinearControllerOf<Interval> sampled_controller(const LinearControllerOf<Interval>& controller,
+                                                const Interval& period, Discretization method) {
+  return forms::sampled(controller, period, method);
 }
 
-bool integrates(const Controller& controller) {
-  const LinearController form = linear_controller(controller);
-  const std::size_t order = form.order();
+bool integrates(const LinearController& controller) {
+  const std::size_t order = controller.order();
   if (order == 0) return false;
-  Eigen::MatrixXd velocity = forms::matrix_of(form.state_matrix, order);
-  const bool is_from_sample_to_sample = std::holds_alternative<SampledTransfer>(controller);
-  if (is_from_sample_to_sample)
+  Eigen::MatrixXd velocity = forms::matrix_of(controller.state_matrix, order);
+  if (controller.is_of_samples) {
     velocity -= Eigen::MatrixXd::Identity(velocity.rows(), velocity.cols());
-  return !all_solutions(velocity, forms::matrix_of(form.input_matrix, 3).col(1));
+  }
+  return !all_solutions(velocity, forms::matrix_of(controller.input_matrix, 3).col(1));
 }
 
 double spectral_radius(const LinearController& controller) {

@@ -1,57 +1,62 @@
-// Controllers as linear ones, for any numbers: doubles, intervals.
+// The laws of gearlash/controller.hpp as linear controllers, for any numbers: doubles, intervals.
+// `gain` makes a Number of each of their doubles; `scale` is torque per unit of output.
 #pragma once
 
 #include <algorithm>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "base/number.hpp"
 #include "model/controller.hpp"
-#include "numeric/elimination.hpp"
-#include "numeric/linear_algebra.hpp"
+#include "numeric/vector_algebra.hpp"
 
 namespace gearlash::drive::forms {
 
 template <class Number>
-LinearControllerOf<Number> linear(const ProportionalDerivativeOf<Number>& controller) {
+LinearControllerOf<Number> proportional(const Number& of_position, const Number& of_speed) {
   LinearControllerOf<Number> result;
-  result.direct = {controller.proportional, -controller.proportional, -controller.derivative};
+  result.direct = {of_position, -of_position, -of_speed};
   return result;
 }
 
 /// The states are ∫e dt, times its gain, and the filter's.
-template <class Number>
-LinearControllerOf<Number> linear(const ProportionalIntegralDerivativeOf<Number>& controller) {
-  const bool has_filter = is_above_zero(controller.filter);
-  LinearControllerOf<Number> result = linear(ProportionalDerivativeOf<Number>{
-      controller.proportional, has_filter ? Number(0.0) : controller.derivative});
-  const bool integrates = !is_exactly(controller.integral, 0.0);
-  const bool filters = has_filter && !is_exactly(controller.derivative, 0.0);
+template <class Number, class Gain>
+LinearControllerOf<Number> linear(const PID& pid, const Gain& gain, const Number& scale) {
+  const bool has_integral = pid.terms == PIDTerms::PI || pid.terms == PIDTerms::PID;
+  const bool has_derivative = pid.terms == PIDTerms::PD || pid.terms == PIDTerms::PID;
+  const Number derivative = has_derivative ? Number(scale * gain(pid.derivative)) : Number(0.0);
+  const Number filter = has_derivative ? Number(gain(pid.filter)) : Number(0.0);
+  const Number integral = has_integral ? Number(scale * gain(pid.integral)) : Number(0.0);
+  const bool has_filter = is_above_zero(filter);
+  LinearControllerOf<Number> result =
+      proportional<Number>(scale * gain(pid.proportional), has_filter ? Number(0.0) : derivative);
+  const bool integrates = !is_exactly(integral, 0.0);
+  const bool filters = has_filter && !is_exactly(derivative, 0.0);
   const std::size_t order = (integrates ? 1U : 0U) + (filters ? 1U : 0U);
   result.state_matrix.assign(order, std::vector<Number>(order, Number(0.0)));
   result.input_matrix.assign(order, std::vector<Number>(3, Number(0.0)));
   result.output.assign(order, Number(1.0));
   if (integrates) {
-    result.input_matrix[0] = {controller.integral, -controller.integral, 0.0};
-    if (is_above_zero(controller.tracking_time)) {
+    result.input_matrix[0] = {integral, -integral, 0.0};
+    const Number tracking_time = gain(pid.tracking_time);
+    if (is_above_zero(tracking_time)) {
       result.anti_windup.assign(order, Number(0.0));
-      result.anti_windup[0] = 1.0 / controller.tracking_time;
+      result.anti_windup[0] = 1.0 / tracking_time;
     }
   }
   if (filters) {
-    const Number rate = 1.0 / controller.filter;
-    const Number gain = controller.derivative * rate;
+    const Number rate = 1.0 / filter;
+    const Number by_rate = derivative * rate;
     result.state_matrix[order - 1][order - 1] = -rate;
-    if (controller.derivative_of_speed) {
-      result.input_matrix[order - 1] = {0.0, 0.0, -gain};
+    if (pid.derivative_of_speed) {
+      result.input_matrix[order - 1] = {0.0, 0.0, -by_rate};
       return result;
     }
     // d s/(Ts + 1) = (d/T)(1 − 1/(Ts + 1))
-    const Number fed = gain * rate;
+    const Number fed = by_rate * rate;
     result.input_matrix[order - 1] = {-fed, fed, 0.0};
-    result.direct[0] = result.direct[0] + gain;
-    result.direct[1] = result.direct[1] - gain;
+    result.direct[0] = result.direct[0] + by_rate;
+    result.direct[1] = result.direct[1] - by_rate;
   }
   return result;
 }
@@ -68,22 +73,23 @@ void filter_speed(LinearControllerOf<Number>& controller, const Number& time) {
   if (!controller.anti_windup.empty()) controller.anti_windup.push_back(0.0);
 }
 
-template <class Number>
-LinearControllerOf<Number> linear(const CascadeOf<Number>& controller) {
-  LinearControllerOf<Number> result;
-  const Number stiffness = controller.speed * controller.position;
-  result.direct = {stiffness, -stiffness, -controller.speed};
-  if (!is_exactly(controller.speed_integral, 0.0)) {
-    const Number integral = controller.speed_integral;
-    const Number of_error = integral * controller.position;
+template <class Number, class Gain>
+LinearControllerOf<Number> linear(const CascadeController& cascade, const Gain& gain,
+                                  const Number& scale) {
+  const Number position = gain(cascade.position);
+  const Number speed = scale * gain(cascade.speed);
+  const Number integral = scale * gain(cascade.speed_integral);
+  LinearControllerOf<Number> result = proportional<Number>(speed * position, speed);
+  if (!is_exactly(integral, 0.0)) {
+    const Number of_error = integral * position;
     result.state_matrix.assign(1, {Number(0.0)});
     result.input_matrix.push_back({of_error, -of_error, -integral});
     result.output.push_back(1.0);
-    if (is_above_zero(controller.tracking_time)) {
-      result.anti_windup.push_back(1.0 / controller.tracking_time);
-    }
+    const Number tracking_time = gain(cascade.tracking_time);
+    if (is_above_zero(tracking_time)) result.anti_windup.push_back(1.0 / tracking_time);
   }
-  if (is_above_zero(controller.filter)) filter_speed(result, controller.filter);
+  const Number filter = gain(cascade.filter);
+  if (is_above_zero(filter)) filter_speed(result, filter);
   return result;
 }
 
@@ -94,17 +100,21 @@ std::vector<Number> without_leading_zeros(const std::vector<Number>& coefficient
   return {first, coefficients.end()};
 }
 
-/// Controllable canonical form of numerator/denominator, descending powers, times e = r − y.
+/// Controllable canonical form of numerator/denominator, descending powers, times e = r − y; empty,
+/// a faulty controller, if it is not proper or of too high an order.
 template <class Number>
 LinearControllerOf<Number> canonical_form(const std::vector<Number>& numerator_given,
                                           const std::vector<Number>& denominator_given) {
   const std::vector<Number> denominator = without_leading_zeros(denominator_given);
   const std::vector<Number> given = without_leading_zeros(numerator_given);
+  LinearControllerOf<Number> result;
+  result.direct.clear();
+  const bool is_proper = !denominator.empty() && given.size() <= denominator.size();
+  if (!is_proper || denominator.size() > highest_order + 1) return result;
   const std::size_t order = denominator.size() - 1;
   const Number lead = denominator[0];
   std::vector<Number> numerator(denominator.size(), Number(0.0));
   std::copy_backward(given.begin(), given.end(), numerator.end());
-  LinearControllerOf<Number> result;
   const Number direct = numerator[0] / lead;
   result.direct = {direct, -direct, 0.0};
   result.state_matrix.assign(order, std::vector<Number>(order, Number(0.0)));
@@ -119,119 +129,63 @@ LinearControllerOf<Number> canonical_form(const std::vector<Number>& numerator_g
   return result;
 }
 
-template <class Number>
-LinearControllerOf<Number> linear(const ErrorTransferOf<Number>& controller) {
-  return canonical_form(controller.function.numerator, controller.function.denominator);
-}
-
-template <class Number>
-LinearControllerOf<Number> linear(const SampledTransferOf<Number>& controller) {
-  return canonical_form(controller.numerator, controller.denominator);
-}
-
-template <class Number>
-LinearControllerOf<Number> linear(const LeadLagOf<Number>& controller) {
+template <class Number, class Gain>
+LinearControllerOf<Number> linear(const LeadLagController& lead_lag, const Gain& gain,
+                                  const Number& scale) {
+  const Number whole = scale * gain(lead_lag.gain);
+  const Number zero = gain(lead_lag.zero);
+  const Number pole = gain(lead_lag.pole);
   // Rounding must not leave dynamics where there are none.
-  if (are_equal(controller.zero, controller.pole)) {
-    return linear(ProportionalDerivativeOf<Number>{.proportional = controller.gain});
-  }
-  return canonical_form<Number>({controller.gain / controller.zero, controller.gain},
-                                {1.0 / controller.pole, 1.0});
+  if (are_equal(zero, pole)) return proportional<Number>(whole, 0.0);
+  return canonical_form<Number>({whole / zero, whole}, {1.0 / pole, 1.0});
 }
 
-template <class Number>
-LinearControllerOf<Number> linear(const LinearControllerOf<Number>& controller) {
-  return controller;
-}
-
-template <class Number>
-LinearControllerOf<Number> linear_controller(const ControllerOf<Number>& controller) {
-  return std::visit([](const auto& one) { return linear(one); }, controller);
-}
-
-// ---- from sample to sample ----------------------------------------------------------------------
-
-template <class Number>
-MatrixOf<Number> matrix_of(const std::vector<std::vector<Number>>& rows, std::size_t columns) {
-  MatrixOf<Number> matrix(static_cast<Eigen::Index>(rows.size()),
-                          static_cast<Eigen::Index>(columns));
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (std::size_t j = 0; j < columns; ++j) {
-      matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = rows[i][j];
-    }
-  }
-  return matrix;
-}
-
-template <class Number>
-VectorOf<Number> vector_of(const std::vector<Number>& numbers) {
-  return Eigen::Map<const VectorOf<Number>>(numbers.data(),
-                                            static_cast<Eigen::Index>(numbers.size()));
-}
-
-template <class Number>
-std::vector<Number> numbers_of(const VectorOf<Number>& vector) {
-  return {vector.data(), vector.data() + vector.size()};
-}
-
-template <class Number>
-std::vector<std::vector<Number>> rows_of(const MatrixOf<Number>& matrix) {
-  std::vector<std::vector<Number>> rows;
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    rows.push_back(numbers_of<Number>(matrix.row(i).transpose()));
-  }
-  return rows;
-}
-
-template <class Number>
-MatrixOf<Number> inverse_of(const MatrixOf<Number>& matrix) {
-  if constexpr (std::is_same_v<Number, double>) {
-    return inverse(matrix);
-  } else {
-    return inverse_by_elimination(matrix);
-  }
-}
-
-/// The reference enters as the position does, with the other sign.
-template <class Number>
-void make_difference(std::vector<Number>& row) {
-  row[0] = -row[1];
-}
-
-/// With d/dt ↦ (z − 1)/(T (share z + 1 − share)), S = (I − share T A)⁻¹:
-///   z⁺ = S (I + (1 − share) T A) z + S B T u,  output C S z + (D + share T C S B) u.
-template <class Number>
-LinearControllerOf<Number> sampled_controller(const ControllerOf<Number>& controller,
-                                              const SamplingOf<Number>& sampling) {
-  LinearControllerOf<Number> given = linear_controller(controller);
-  const std::size_t order = given.order();
-  if (std::holds_alternative<SampledTransferOf<Number>>(controller) || order == 0) return given;
-  const double share = share_of_end(sampling.method);
-  const Number period = sampling.period;
-  const auto size = static_cast<Eigen::Index>(order);
-  const MatrixOf<Number> dynamics = matrix_of(given.state_matrix, order);
-  const MatrixOf<Number> input = matrix_of(given.input_matrix, 3);
-  const MatrixOf<Number> identity = MatrixOf<Number>::Identity(size, size);
-  const Number at_end = share * period;
-  const Number at_start = (1.0 - share) * period;
-  const MatrixOf<Number> solved = inverse_of<Number>(identity - at_end * dynamics);
-  const Number one = 1.0;
-  const VectorOf<Number> output = product(one, solved.transpose(), vector_of(given.output));
-  LinearControllerOf<Number> result;
-  const MatrixOf<Number> start = identity + at_start * dynamics;
-  result.state_matrix = rows_of<Number>(product(one, solved, start));
-  result.input_matrix = rows_of<Number>(product(period, solved, input));
-  result.output = numbers_of<Number>(output);
-  result.direct =
-      numbers_of<Number>(vector_of(given.direct) + product(at_end, input.transpose(), output));
-  if (!given.anti_windup.empty()) {
-    result.anti_windup = numbers_of<Number>(product(period, solved, vector_of(given.anti_windup)));
-  }
-  if (knows_error_alone(given)) {
-    make_difference(result.direct);
-    for (std::vector<Number>& row : result.input_matrix) make_difference(row);
-  }
+template <class Gain>
+auto numbers_of(const std::vector<double>& values, const Gain& gain) {
+  std::vector<decltype(gain(0.0))> result;
+  for (const double value : values) result.push_back(gain(value));
   return result;
+}
+
+template <class Number, class Gain>
+LinearControllerOf<Number> linear(const TransferFunctionController& function, const Gain& gain,
+                                  const Number& scale) {
+  LinearControllerOf<Number> result = canonical_form<Number>(
+      scaled<Number>(scale * gain(function.gain), numbers_of(function.numerator, gain)),
+      numbers_of(function.denominator, gain));
+  result.is_of_samples = function.is_sampled;
+  return result;
+}
+
+/// Columns for r, y and v, from a single column for the error.
+template <class Gain>
+auto of_three_inputs(const std::vector<double>& row, const Gain& gain) {
+  auto result = numbers_of(row, gain);
+  if (row.size() == 1) result = {result[0], -result[0], 0.0};
+  return result;
+}
+
+template <class Number, class Gain>
+LinearControllerOf<Number> linear(const StateSpaceController& system, const Gain& gain,
+                                  const Number& scale) {
+  const Number factor = scale * gain(system.gain);
+  LinearControllerOf<Number> result;
+  for (const std::vector<double>& row : system.A) {
+    result.state_matrix.push_back(numbers_of(row, gain));
+  }
+  for (const std::vector<double>& row : system.B) {
+    result.input_matrix.push_back(of_three_inputs(row, gain));
+  }
+  result.output = scaled<Number>(factor, numbers_of(system.C, gain));
+  result.direct = scaled<Number>(factor, of_three_inputs(system.D, gain));
+  return result;
+}
+
+/// On the signs that an ErrorShape gives.
+template <class Number, class Gain>
+LinearControllerOf<Number> linear(const RelayController& relay, const Gain& gain,
+                                  const Number& scale) {
+  return proportional<Number>(scale * gain(relay.level), 0.0);
 }
 
 }  // namespace gearlash::drive::forms

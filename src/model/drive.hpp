@@ -10,6 +10,7 @@
 
 #include "base/fault.hpp"
 #include "base/number.hpp"
+#include "gearlash/drive.hpp"
 #include "model/controller.hpp"
 #include "model/signal.hpp"
 
@@ -137,15 +138,6 @@ struct RigidContactOf {
 };
 using RigidContact = RigidContactOf<double>;
 
-/// How the damping of compliant faces acts. Neither law ever pulls.
-enum class ContactDamping {
-  /// Modelica's ElastoBacklash: at most the spring's own torque while the faces close, so that the
-  /// torque does not jump as they meet.
-  limited,
-  /// Modelica's ElastoBacklash2: from the first touch on.
-  full
-};
-
 /// Compliant faces: torque stiffness · δ + damping · δ̇, where δ is the compression. Without a gap
 /// they are joined: stiffness · u + damping · u̇ in both directions, where u is the motor less the
 /// load, by either law.
@@ -191,15 +183,15 @@ struct ReducedDriveOf {
   Number backlash = 0.0;  ///< rad, face to face; > 0, or 0 with compliant faces
   ContactOf<Number> contact{};
   SensingOf<Number> sensing{};
-  ControllerOf<Number> controller{};
+  LinearControllerOf<Number> controller{};
   ErrorShapeOf<Number> error_shape{};
   FeedforwardOf<Number> feedforward{};
   /// Of the requested torque, before the winding. N m, > 0.
   Number torque_limit = std::numeric_limits<double>::infinity();
   WindingOf<Number> winding{};
-  std::optional<SamplingOf<Number>> sampling{};  ///< without it the controller is continuous
-  Signal reference{};                            ///< rad
-  Signal load_torque{};                          ///< N m, on the load, forward
+  std::optional<Sampling> sampling{};  ///< without it the controller is continuous
+  Signal reference{};                  ///< rad
+  Signal load_torque{};                ///< N m, on the load, forward
   GravityOf<Number> gravity{};
   /// Numbers in the controller's lists stand for others: see gearlash::Drive::is_rounded. That two
   /// of them are equal is then not known; 0 is exact.
@@ -215,6 +207,11 @@ struct ReducedDriveOf {
   }
 };
 using ReducedDrive = ReducedDriveOf<double>;
+
+/// The controller as it runs: that of a sampled drive from sample to sample. Precondition: sound.
+inline LinearController running_controller(const ReducedDrive& drive) {
+  return drive.sampling ? sampled_controller(drive.controller, *drive.sampling) : drive.controller;
+}
 
 /// Whether the shafts are joined by a spring without a gap.
 inline bool is_joined(const ReducedDrive& drive) {
@@ -240,7 +237,8 @@ inline bool has_linear_control(const ReducedDrive& drive) {
 /// Whether a sine reference or load torque drives the oscillation, which then is not hunting.
 bool is_driven(const ReducedDrive& drive);
 
-/// Every fault in the ranges above.
+/// What forbids to simulate the drive that a sound gearlash::Drive was reduced to. Its single
+/// numbers are in the ranges above by those of that drive.
 std::vector<Fault> faults(const ReducedDrive& drive);
 
 }  // namespace gearlash::drive

@@ -6,10 +6,12 @@
 
 #include "base/range_check.hpp"
 #include "gearlash/bounds.hpp"
+#include "model/controller_forms.hpp"
 #include "model/firmware.hpp"
 #include "model/parameters.hpp"
 #include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
+#include "numeric/transfer_function.hpp"
 
 namespace gearlash {
 namespace {
@@ -17,23 +19,8 @@ namespace {
 /// The path of a parameter by its name in drive::faults().
 std::string path_of(const std::string& name) {
   static const std::vector<std::pair<std::string, std::string>> names = {
-      {"motor.viscous", "motor.friction"},
-      {"load.viscous", "load.friction"},
       {"backlash", "gearbox.backlash"},
-      {"torque_limit", "motor.torque_limit"},
-      {"winding.time_constant", "motor.inductance"},
-      {"winding.torque_limit", "motor.current_limit"},
-      {"error_shape.begins", "controller.dead_band"},
-      {"error_shape.ends", "controller.dead_band"},
       {"error_shape.hysteresis", "controller.hysteresis"},
-      {"feedforward.torque", "controller.friction_compensation"},
-      {"feedforward.speed", "controller.friction_speed"},
-      {"feedforward.half_gap", "controller.backlash_compensation"},
-      {"feedforward.take_up_time", "controller.take_up_time"},
-      {"winding.back_emf", "motor.back_emf_constant"},
-      {"sensing.resolution", "sensor.resolution"},
-      {"sensing.resolution_of_speed", "sensor.speed_resolution"},
-      {"controller.numerator", "controller.num"},
       {"controller.denominator", "controller.den"},
       {"controller.state_matrix", "controller.A"},
       {"controller.input_matrix", "controller.B"},
@@ -183,11 +170,10 @@ std::optional<double> holding_friction(const drive::ReducedDrive& drive) {
 void check_encoder(RangeCheck& check, const Drive& drive, const drive::ReducedDrive& reduced) {
   const double step = reduced.sensing.resolution;
   if (drive.sampling || !(step > 0.0) || reduced.winding.time_constant > 0.0) return;
-  if (!faults(reduced.controller).empty()) return;
   const std::optional<double> held = holding_friction(reduced);
   const drive::ErrorShape& shape = reduced.error_shape;
   if (shape.is_relay() && step <= shape.begins - shape.ends) return;  // its hysteresis holds it
-  const double gain = std::abs(drive::linear_controller(reduced.controller).direct[1]);
+  const double gain = std::abs(reduced.controller.direct[1]);
   const double torque = shape.is_relay() ? 2.0 * gain : gain * step;
   if (!held || !(torque > 2.0 * *held)) return;
   const Encoder& encoder = drive.sensor.encoder;
@@ -277,6 +263,45 @@ void check_columns(RangeCheck& check, const Drive& drive) {
   if (is_wrong(system->D)) check.refuse("controller.D", "", permitted);
 }
 
+/// A transfer function is proper, and of no higher order than others.
+std::vector<Fault> law_faults(const Drive& drive) {
+  const auto* law = std::get_if<TransferFunctionController>(&drive.controller.law);
+  if (law == nullptr || drive.servo) return {};
+  const std::vector<double> numerator = scaled(law->gain, law->numerator);
+  RangeCheck check;
+  for (Fault fault : faults(TransferFunction{numerator, law->denominator})) {
+    fault.path = fault.path == "numerator" ? "controller.num" : "controller.den";
+    check.include({fault});
+  }
+  if (!check.faults().empty()) return check.faults();
+  const auto degree_of = [](const std::vector<double>& coefficients) {
+    return drive::forms::without_leading_zeros(coefficients).size() - 1;
+  };
+  const std::size_t degree = degree_of(law->denominator);
+  if (degree > drive::highest_order) {
+    check.refuse("controller.den", "of order " + std::to_string(degree),
+                 "must be of order at most " + std::to_string(drive::highest_order) + " (order " +
+                     std::to_string(degree) + ")");
+  }
+  if (degree_of(numerator) > degree) {
+    check.refuse("controller.num", "of degree " + std::to_string(degree_of(numerator)),
+                 "must be of no higher degree than the denominator (" + std::to_string(degree) +
+                     "): a controller cannot differentiate its input");
+  }
+  return check.faults();
+}
+
+/// What can be checked of the poles of a transfer function with faults.
+drive::LinearController poles_of(const Drive& drive) {
+  auto law = std::get<TransferFunctionController>(drive.controller.law);
+  law.gain = 1.0;
+  law.numerator = {1.0};
+  drive::LinearController poles = drive::forms::linear(law, AsRead(), 1.0);
+  if (!law.is_sampled || !faults(poles).empty()) poles = {};
+  poles.is_of_samples = law.is_sampled;
+  return poles;
+}
+
 constexpr double largest_number = 1e60;
 constexpr double least_divisor = 1e-60;
 
@@ -353,15 +378,19 @@ std::vector<Fault> faults_of_size(const Drive& drive) {
 
 /// Rules that join several numbers.
 std::vector<Fault> joint_faults(const Drive& drive) {
-  const drive::ReducedDrive reduced = reduce(drive);
-  if (must_be_a_servo(drive, reduced) && faults(reduced.controller).empty()) {
+  drive::ReducedDrive reduced = reduce(drive);
+  const std::vector<Fault> of_law = law_faults(drive);
+  const bool is_sound = of_law.empty() && faults(reduced.controller).empty();
+  if (must_be_a_servo(drive, reduced) && is_sound) {
     if (const auto drivetrain = drive::proportional_drivetrain(reduced)) {
       return servo_faults(*drivetrain);
     }
   }
   std::vector<Fault> found = faults_of_size(drive);
   if (!found.empty()) return found;
+  if (!of_law.empty()) reduced.controller = poles_of(drive);
   found = drive::faults(reduced);
+  found.insert(found.begin(), of_law.begin(), of_law.end());
   if (found.empty()) {
     RangeCheck encoder;
     check_encoder(encoder, drive, reduced);

@@ -39,12 +39,12 @@ EnclosedDrive::EnclosedDrive(const drive::ReducedDrive& drive)
 }
 
 void EnclosedDrive::add_controller() {
-  if (!numbers_.sampling) {
-    controller_ = drive::linear_controller(numbers_.controller);
-    return;
-  }
-  controller_ = drive::sampled_controller(numbers_.controller, *numbers_.sampling);
-  held_torques_ = gearlash::held_torques(*numbers_.sampling, *form_.sampling);
+  controller_ = numbers_.controller;
+  if (!form_.sampling) return;
+  const Sampling& sampling = *form_.sampling;
+  period_ = AsWritten()(sampling.period);
+  controller_ = drive::sampled_controller(controller_, period_, sampling.method);
+  held_torques_ = gearlash::held_torques(period_, AsWritten()(sampling.delay), sampling);
 }
 
 void EnclosedDrive::widen_to(const EnclosedDrive& other) {
@@ -52,6 +52,7 @@ void EnclosedDrive::widen_to(const EnclosedDrive& other) {
   set_numbers(widen, other.numbers_, numbers_);
   set_numbers(widen, other.course_, course_);
   set_numbers(widen, other.controller_, controller_);
+  set_numbers(widen, other.period_, period_);
   set_numbers(widen, other.held_torques_, held_torques_);
 }
 

@@ -35,6 +35,7 @@ class EnclosedDrive {
   const EnclosedController& controller() const { return controller_; }
   const CourseOf<Interval>& course() const { return course_; }
   /// Of a sampled drive.
+  const Interval& period() const { return period_; }
   const std::vector<HeldTorqueOf<Interval>>& held_torques() const { return held_torques_; }
 
  private:
@@ -44,6 +45,7 @@ class EnclosedDrive {
   drive::ReducedDriveOf<Interval> numbers_;
   CourseOf<Interval> course_;
   EnclosedController controller_;
+  Interval period_{0.0};
   std::vector<HeldTorqueOf<Interval>> held_torques_;
 };
 

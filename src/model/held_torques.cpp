@@ -18,7 +18,7 @@ Decimal without_last_zeros(Decimal decimal) {
 
 /// Of decimals that have at most 13 digits in seconds it is then the multiple: another one would be
 /// farther off than doubles are apart.
-bool is_written_as_multiple(const drive::Sampling& sampling, int periods) {
+bool is_written_as_multiple(const Sampling& sampling, int periods) {
   if (sampling.delay == static_cast<double>(periods) * sampling.period) return true;
   Decimal period = shortest_decimal(sampling.period);
   period.digits *= static_cast<std::uint64_t>(periods);
@@ -30,13 +30,12 @@ double excess(double) { return 0.0; }
 Interval excess(const Interval& time) { return not_negative(time); }
 
 template <class Number>
-std::vector<HeldTorqueOf<Number>> held(const drive::SamplingOf<Number>& sampling,
-                                       const drive::Sampling& form) {
+std::vector<HeldTorqueOf<Number>> held(const Number& period, const Number& whole_delay,
+                                       const Sampling& form) {
   const drive::SplitDelay delay = drive::split_delay(form);
-  const Number period = sampling.period;
   if (delay.rest == 0.0) return {{0.0, period, 0}};
   const auto newest = static_cast<std::size_t>(delay.whole_periods);
-  const Number rest = sampling.delay - static_cast<double>(delay.whole_periods) * period;
+  const Number rest = whole_delay - static_cast<double>(delay.whole_periods) * period;
   if (delay.rest < form.period) return {{0.0, rest, newest + 1}, {rest, period, newest}};
   const bool is_exact = is_written_as_multiple(form, delay.whole_periods + 1);
   const Number late = is_exact ? Number(0.0) : excess(rest - period);
@@ -51,13 +50,13 @@ std::vector<HeldTorqueOf<Number>> held(const drive::SamplingOf<Number>& sampling
 
 }  // namespace
 
-std::vector<HeldTorque> held_torques(const drive::Sampling& sampling) {
-  return held(sampling, sampling);
+std::vector<HeldTorque> held_torques(const Sampling& sampling) {
+  return held(sampling.period, sampling.delay, sampling);
 }
 
-std::vector<HeldTorqueOf<Interval>> held_torques(const drive::SamplingOf<Interval>& sampling,
-                                                 const drive::Sampling& form) {
-  return held(sampling, form);
+std::vector<HeldTorqueOf<Interval>> held_torques(const Interval& period, const Interval& delay,
+                                                 const Sampling& form) {
+  return held(period, delay, form);
 }
 
 }  // namespace gearlash

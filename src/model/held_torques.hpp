@@ -22,15 +22,15 @@ struct HeldTorqueOf {
 using HeldTorque = HeldTorqueOf<double>;
 
 /// In order, from one tick to the next. Precondition: a sound sampling.
-std::vector<HeldTorque> held_torques(const drive::Sampling& sampling);
+std::vector<HeldTorque> held_torques(const Sampling& sampling);
 
-/// Contains those of every sampling within, of which `form` is one.
+/// Contains those of every sampling with such a period and delay, s, of which `form` is one.
 ///
 /// A delay of whole periods by split_delay() may be a little shorter or longer. The torque before
 /// it and the one after it then are held too, over a time from 0 to that little. Not so where the
 /// form's delay is the rounded product of its period, or their shortest decimals are a multiple:
 /// that is what was written.
-std::vector<HeldTorqueOf<Interval>> held_torques(const drive::SamplingOf<Interval>& sampling,
-                                                 const drive::Sampling& form);
+std::vector<HeldTorqueOf<Interval>> held_torques(const Interval& period, const Interval& delay,
+                                                 const Sampling& form);
 
 }  // namespace gearlash

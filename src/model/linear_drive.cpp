@@ -174,16 +174,6 @@ System<Number> sprung_plant(const LinearDrive<Number>& drive) {
 
 // ---- from a reduced drive -----------------------------------------------------------------------
 
-/// `is_rounded`: that two of its numbers are opposite is not known.
-template <class Number>
-ControllerRow<Number> row_of(const Vector<Number>& inputs, Vector<Number> of_state,
-                             bool is_rounded) {
-  return {.of_state = std::move(of_state),
-          .reference = is_rounded ? inputs[0] + inputs[1] : drive::of_both(inputs),
-          .position = inputs[1],
-          .speed = inputs[2]};
-}
-
 /// `form` says what the drive consists of.
 template <class Number>
 LinearDrive<Number> made_of(const ReducedDrive& form, const drive::ReducedDriveOf<Number>& numbers,
@@ -200,16 +190,16 @@ LinearDrive<Number> made_of(const ReducedDrive& form, const drive::ReducedDriveO
   linear.position_share = form.sensing.load_share_of_position;
   linear.speed_share = form.sensing.load_share_of_speed;
   if (const auto* faces = std::get_if<drive::CompliantContactOf<Number>>(&numbers.contact)) {
-    linear.spring = {faces->stiffness, faces->damping};
+    linear.spring = *faces;
   }
-  linear.torque = row_of(controller.direct, controller.output, form.has_rounded_lists);
-  for (std::size_t i = 0; i < controller.order(); ++i) {
-    linear.controller_states.push_back(
-        row_of(controller.input_matrix[i], controller.state_matrix[i], form.has_rounded_lists));
-  }
-  if (!form.sampling) return linear;
-  linear.period = numbers.sampling->period;
-  linear.counts = linear.uses_speed() && form.sampling->speed_by_differences;
+  linear.controller = controller;
+  // Of rounded numbers it is not known that two are opposite.
+  const auto combine = [&](Vector<Number>& row) {
+    row[0] = form.has_rounded_lists ? row[0] + row[1] : drive::of_both(row);
+  };
+  combine(linear.controller.direct);
+  for (Vector<Number>& row : linear.controller.input_matrix) combine(row);
+  linear.counts = form.sampling && linear.uses_speed() && form.sampling->speed_by_differences;
   return linear;
 }
 
@@ -228,19 +218,28 @@ IntervalMatrix flow_of(const LinearSystem<Interval>& system) {
   return flow;
 }
 
+Eigen::MatrixXd flow_of(const LinearSystem<double>& system) {
+  const auto size = static_cast<Eigen::Index>(system.size());
+  Eigen::MatrixXd flow(size, size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const std::vector<double>& row = system.slopes[static_cast<std::size_t>(i)].of_state;
+    flow.row(i) = Eigen::Map<const Eigen::RowVectorXd>(row.data(), size);
+  }
+  return flow;
+}
+
 template <class Number>
 bool LinearDrive<Number>::uses_speed() const {
-  return !is_exactly(torque.speed, 0.0) ||
-         std::any_of(controller_states.begin(), controller_states.end(),
-                     [](const ControllerRow<Number>& row) { return !is_exactly(row.speed, 0.0); });
+  const auto uses = [](const std::vector<Number>& row) { return !is_exactly(row[2], 0.0); };
+  return uses(controller.direct) ||
+         std::any_of(controller.input_matrix.begin(), controller.input_matrix.end(), uses);
 }
 
 template <class Number>
 bool LinearDrive<Number>::knows_error_alone() const {
-  return is_exactly(torque.reference, 0.0) &&
-         std::all_of(
-             controller_states.begin(), controller_states.end(),
-             [](const ControllerRow<Number>& row) { return is_exactly(row.reference, 0.0); });
+  const auto knows = [](const std::vector<Number>& row) { return is_exactly(row[0], 0.0); };
+  return knows(controller.direct) &&
+         std::all_of(controller.input_matrix.begin(), controller.input_matrix.end(), knows);
 }
 
 template <class Number>
@@ -249,28 +248,37 @@ LinearSystem<Number> LinearDrive<Number>::plant() const {
 }
 
 template <class Number>
-LinearForm<Number> LinearDrive<Number>::worked_out(const ControllerRow<Number>& row,
+LinearForm<Number> LinearDrive<Number>::worked_out(const std::vector<Number>& of_state,
+                                                   const std::vector<Number>& of_inputs,
                                                    const LinearForm<Number>& position,
                                                    const LinearForm<Number>& speed,
                                                    std::size_t first) const {
-  LinearForm<Number> form = row.position * position + row.speed * speed;
+  LinearForm<Number> form = of_inputs[1] * position + of_inputs[2] * speed;
   for (std::size_t i = 0; i < order(); ++i) {
-    form.of_state[first + i] = form.of_state[first + i] + row.of_state[i];
+    form.of_state[first + i] = form.of_state[first + i] + of_state[i];
   }
-  form[LinearInput::position_reading] = form[LinearInput::position_reading] + row.position;
-  form[LinearInput::reference] = form[LinearInput::reference] + row.reference;
+  form[LinearInput::position_reading] = form[LinearInput::position_reading] + of_inputs[1];
+  form[LinearInput::reference] = form[LinearInput::reference] + of_inputs[0];
   return form;
 }
 
 template <class Number>
-LinearSystem<Number> LinearDrive<Number>::loop() const {
+LinearSystem<Number> LinearDrive<Number>::open() const {
   const LinearSystem<Number> mechanics = plant();
   const std::size_t first = mechanics.size();
-  LinearSystem<Number> loop = extended(mechanics, first + order());
-  const LinearForm<Number> requested = worked_out(torque, loop.position, loop.speed, first);
+  LinearSystem<Number> open = extended(mechanics, first + order());
   for (std::size_t i = 0; i < order(); ++i) {
-    loop.slopes[first + i] = worked_out(controller_states[i], loop.position, loop.speed, first);
+    open.slopes[first + i] = worked_out(controller.state_matrix[i], controller.input_matrix[i],
+                                        open.position, open.speed, first);
   }
+  open.effort = worked_out(controller.output, controller.direct, open.position, open.speed, first);
+  return open;
+}
+
+template <class Number>
+LinearSystem<Number> LinearDrive<Number>::loop() const {
+  LinearSystem<Number> loop = open();
+  const LinearForm<Number> requested = loop.effort;
   for (LinearForm<Number>* form : forms_of(loop)) {
     const Number share = std::exchange((*form)[LinearInput::torque], Number(0.0));
     if (!is_exactly(share, 0.0)) *form = std::move(*form) + share * requested;
@@ -285,16 +293,16 @@ template struct LinearDrive<double>;
 template struct LinearDrive<Interval>;
 
 LinearDrive<double> linear_drive(const ReducedDrive& drive) {
-  if (!drive.sampling) return made_of(drive, drive, drive::linear_controller(drive.controller));
-  const drive::Sampling& sampling = *drive.sampling;
-  LinearDrive<double> linear =
-      made_of(drive, drive, drive::sampled_controller(drive.controller, sampling));
-  linear.holds = held_torques(sampling);
+  LinearDrive<double> linear = made_of(drive, drive, drive::running_controller(drive));
+  if (!drive.sampling) return linear;
+  linear.period = drive.sampling->period;
+  linear.holds = held_torques(*drive.sampling);
   return linear;
 }
 
 LinearDrive<Interval> linear_drive(const EnclosedDrive& drive) {
   LinearDrive<Interval> linear = made_of(drive.form(), drive.numbers(), drive.controller());
+  linear.period = drive.period();
   linear.holds = drive.held_torques();
   return linear;
 }

@@ -12,6 +12,7 @@
 #include "model/enclosed_drive.hpp"
 #include "model/held_torques.hpp"
 #include "numeric/interval_algebra.hpp"
+#include "numeric/linear_algebra.hpp"
 #include "numeric/vector_algebra.hpp"
 
 namespace gearlash {
@@ -96,16 +97,7 @@ struct LinearSystem {
 
 /// The slopes by the states.
 IntervalMatrix flow_of(const LinearSystem<Interval>& system);
-
-/// What the controller works out by its own states, and by what it receives: reference and position
-/// together, the position's deviation from the reference, and the speed.
-template <class Number>
-struct ControllerRow {
-  std::vector<Number> of_state{};
-  Number reference{0.0};  ///< 0 where it knows reference and position by their difference alone
-  Number position{0.0};
-  Number speed{0.0};
-};
+Eigen::MatrixXd flow_of(const LinearSystem<double>& system);
 
 /// The numbers of shafts, winding, faces, sensors and controller, at the load's shaft.
 template <class Number>
@@ -118,21 +110,18 @@ struct LinearDrive {
   Number back_emf{0.0};
   Number electrical_time{0.0};
   bool lags = false;  ///< whether the winding delays the torque
-  struct Spring {
-    Number stiffness{0.0};
-    Number damping{0.0};
-  };
-  std::optional<Spring> spring{};  ///< of compliant faces
-  Number position_share{0.0};      ///< of the load in the sensed position
+  std::optional<drive::CompliantContactOf<Number>> spring{};  ///< of compliant faces
+  Number position_share{0.0};  ///< of the load in the sensed position
   Number speed_share{0.0};
-  ControllerRow<Number> torque{};                          ///< requested
-  std::vector<ControllerRow<Number>> controller_states{};  ///< their slopes, or their next values
+  /// As it runs, by (r, y, v) where r is the reference and an equal position together: 0 where the
+  /// controller knows them by their difference alone.
+  drive::LinearControllerOf<Number> controller{};
   // Of a sampled controller.
   Number period{0.0};
   std::vector<HeldTorqueOf<Number>> holds{};  ///< none: continuous
   bool counts = false;                        ///< the speed is a difference of positions
 
-  std::size_t order() const { return controller_states.size(); }
+  std::size_t order() const { return controller.order(); }
   /// Whether the controller's torque depends on the sensed speed.
   bool uses_speed() const;
   /// Whether the controller knows reference and position by their difference alone.
@@ -140,10 +129,15 @@ struct LinearDrive {
 
   /// The mechanics and the winding, under the input `torque`.
   LinearSystem<Number> plant() const;
-  /// The same with a continuous controller, whose states come last, in place of that input.
+  /// The same with a continuous controller, whose states come last. The input is still `torque`,
+  /// the effort is what the controller requests.
+  LinearSystem<Number> open() const;
+  /// With the controller in place of that input.
   LinearSystem<Number> loop() const;
-  /// A row of the controller, whose states begin at `first` among those of the forms.
-  LinearForm<Number> worked_out(const ControllerRow<Number>& row,
+  /// What the controller works out by its states, which begin at `first` among those of the forms,
+  /// and its inputs.
+  LinearForm<Number> worked_out(const std::vector<Number>& of_state,
+                                const std::vector<Number>& of_inputs,
                                 const LinearForm<Number>& position, const LinearForm<Number>& speed,
                                 std::size_t first) const;
 };

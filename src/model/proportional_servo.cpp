@@ -28,16 +28,11 @@ bool is_smooth(const ReducedDrive& drive) {
 
 }  // namespace
 
-std::optional<Drivetrain> proportional_servo(const ReducedDrive& drive) {
-  const std::optional<Drivetrain> drivetrain = proportional_drivetrain(drive);
-  return drivetrain && faults(*drivetrain).empty() ? drivetrain : std::nullopt;
-}
-
 std::optional<Drivetrain> proportional_drivetrain(const ReducedDrive& drive) {
   const auto* rigid = std::get_if<RigidContact>(&drive.contact);
   if (rigid == nullptr || !is_smooth(drive) || !is_undisturbed(drive)) return std::nullopt;
   if (drive.sensing.load_share_of_position != 1.0) return std::nullopt;
-  const LinearController controller = linear_controller(drive.controller);
+  const LinearController& controller = drive.controller;
   if (drive.has_rounded_lists || !is_proportional(controller)) return std::nullopt;
   // The torque acts on the motor, so only feedback of the motor's speed acts as friction.
   const double feedback = -controller.direct[2];

@@ -18,18 +18,15 @@ ReducedDriveOf<Number> drive_of(const DrivetrainOf<Number>& drivetrain) {
   drive.backlash = drivetrain.backlash;
   drive.contact = RigidContactOf<Number>{drivetrain.restitution};
   drive.sensing.load_share_of_position = drivetrain.sensor == ShaftName::load ? 1.0 : 0.0;
-  drive.controller = ProportionalDerivativeOf<Number>{.proportional = drivetrain.stiffness};
+  drive.controller.direct = {drivetrain.stiffness, -drivetrain.stiffness, -0.0};
   return drive;
 }
 
 /// The servo of the closed form that is equivalent to a drive: proportional control of the load's
 /// position, continuous, read exactly and without limit, rigid faces, no dry friction, a constant
 /// reference, no load torque. The speed may be fed back from the motor alone, which counts as
-/// friction on it. Empty for any other drive. Precondition: faults(drive) is empty.
-std::optional<Drivetrain> proportional_servo(const ReducedDrive& drive);
-
-/// The same without the check that its numbers are within the ranges of the closed form.
-/// Precondition: the controller is sound.
+/// friction on it. Empty for any other drive. Its numbers may be beyond the ranges of the closed
+/// form. Precondition: the controller is sound.
 std::optional<Drivetrain> proportional_drivetrain(const ReducedDrive& drive);
 
 }  // namespace gearlash::drive

@@ -94,7 +94,8 @@ Drive physical_form(const Drive& drive) {
 bool is_normalized(const Drive& drive) { return drive.servo && !drive.servo->natural_frequency; }
 
 std::optional<Drivetrain> proportional_drivetrain(const Drive& drive) {
-  return drive::proportional_servo(reduce(drive));
+  const std::optional<Drivetrain> drivetrain = drive::proportional_drivetrain(reduce(drive));
+  return drivetrain && faults(*drivetrain).empty() ? drivetrain : std::nullopt;
 }
 
 namespace {
@@ -114,8 +115,7 @@ ProportionalGains gains_of(const Drive& drive) {
   if (const auto* cascade = std::get_if<CascadeController>(&controller.law)) {
     return {cascade->position * cascade->speed, cascade->speed};
   }
-  const drive::LinearController linear =
-      drive::linear_controller(Reduction<AsRead>(drive).controller(1.0));
+  const drive::LinearController linear = Reduction<AsRead>(drive).controller(1.0);
   return {linear.direct[0], -linear.direct[2]};
 }
 
@@ -151,12 +151,13 @@ ClosedFormServo normal_form_servo(const Drive& drive) {
 
 std::optional<ClosedFormServo> closed_form_servo(const Drive& drive) {
   const std::optional<Drivetrain> drivetrain = drive::proportional_drivetrain(reduce(drive));
-  if (!drivetrain) return std::nullopt;
-  if (!drive.servo) {
-    if (!faults(*drivetrain).empty()) return std::nullopt;
-    return ClosedFormServo{normalize_sound(*drivetrain), natural_frequency(*drivetrain), false};
-  }
-  return normal_form_servo(drive);
+  return drivetrain ? closed_form_servo(drive, *drivetrain) : std::nullopt;
+}
+
+std::optional<ClosedFormServo> closed_form_servo(const Drive& drive, const Drivetrain& drivetrain) {
+  if (drive.servo) return normal_form_servo(drive);
+  if (!faults(drivetrain).empty()) return std::nullopt;
+  return ClosedFormServo{normalize_sound(drivetrain), natural_frequency(drivetrain), false};
 }
 
 std::optional<Drive> normal_form_of(const Drive& drive) {

@@ -83,6 +83,8 @@ inline constexpr char permitted_with_closed_form[] =
 /// load torque; speed fed back from the motor is friction on it. Sides without inertia and gaps of
 /// 0 are included. Empty for any other drive. Precondition: every parameter is in its range.
 std::optional<ClosedFormServo> closed_form_servo(const Drive& drive);
+/// The same with its proportional_drivetrain(), if that is known.
+std::optional<ClosedFormServo> closed_form_servo(const Drive& drive, const Drivetrain& drivetrain);
 
 /// The same servo as a normal form with its natural frequency; empty for any other drive. Numbers
 /// computed from data with units are rounded. Precondition as above.

@@ -10,6 +10,7 @@
 #include "base/number.hpp"
 #include "base/overloaded.hpp"
 #include "gearlash/drive.hpp"
+#include "model/controller_forms.hpp"
 #include "model/drive.hpp"
 #include "model/drivetrain.hpp"
 #include "model/firmware.hpp"
@@ -59,7 +60,7 @@ class Reduction {
     reduced.contact = contact();
     reduced.sensing = sensing();
     count_thresholds(reduced);
-    if (drive_.sampling) reduced.sampling = sampling();
+    reduced.sampling = drive_.sampling;
     reduced.reference = drive_.reference.value_or(0.0);
     // A reference that does not move has nothing to be compensated.
     if (std::holds_alternative<double>(reduced.reference)) reduced.feedforward = {};
@@ -142,8 +143,12 @@ class Reduction {
     return rigid == nullptr ? Number(0.0) : datum_(rigid->restitution);
   }
   /// `scale`: torque at the load per unit of a gain.
-  drive::ControllerOf<Number> controller(const Number& scale) const {
-    return std::visit([&](const auto& law) { return reduced(law, scale); }, drive_.controller.law);
+  drive::LinearControllerOf<Number> controller(const Number& scale) const {
+    const auto gain = [this](double value) {
+      return is_converted_ ? datum_.converted(value) : datum_(value);
+    };
+    return std::visit([&](const auto& law) { return drive::forms::linear(law, gain, scale); },
+                      drive_.controller.law);
   }
 
  private:
@@ -171,11 +176,6 @@ class Reduction {
                    }},
         drive_.motor.kind);
   }
-  /// A number of the controller.
-  Number gain(double value) const {
-    return is_converted_ ? datum_.converted(value) : datum_(value);
-  }
-
   /// A shaft that turns `ratio` times as far as the load's.
   drive::ShaftFrictionOf<Number> referred(const Friction& friction, const Number& coulomb,
                                           const Number& ratio) const {
@@ -230,79 +230,6 @@ class Reduction {
   }
 
   // ---- controllers ------------------------------------------------------------------------------
-
-  std::vector<Number> gains(const std::vector<double>& values) const {
-    std::vector<Number> result;
-    for (const double value : values) result.push_back(gain(value));
-    return result;
-  }
-  /// Columns for r, y and v, from a single column for the error.
-  std::vector<Number> of_three_inputs(const std::vector<double>& row) const {
-    if (row.size() == 1) return {gain(row[0]), -gain(row[0]), 0.0};
-    return gains(row);
-  }
-  static std::vector<Number> scaled(std::vector<Number> numbers, const Number& factor) {
-    for (Number& number : numbers) number = number * factor;
-    return numbers;
-  }
-
-  drive::ControllerOf<Number> reduced(const PID& pid, const Number& scale) const {
-    if (pid.terms == PIDTerms::P) {
-      return drive::ProportionalDerivativeOf<Number>{.proportional =
-                                                         scale * gain(pid.proportional)};
-    }
-    const bool has_integral = pid.terms != PIDTerms::PD;
-    const bool has_derivative = pid.terms != PIDTerms::PI;
-    drive::ProportionalIntegralDerivativeOf<Number> reduced;
-    reduced.proportional = scale * gain(pid.proportional);
-    if (has_integral) {
-      reduced.integral = scale * gain(pid.integral);
-      reduced.tracking_time = gain(pid.tracking_time);
-    }
-    if (has_derivative) {
-      reduced.derivative = scale * gain(pid.derivative);
-      reduced.filter = gain(pid.filter);
-      reduced.derivative_of_speed = pid.derivative_of_speed;
-    }
-    return reduced;
-  }
-  drive::ControllerOf<Number> reduced(const CascadeController& cascade, const Number& scale) const {
-    return drive::CascadeOf<Number>{.position = gain(cascade.position),
-                                    .speed = scale * gain(cascade.speed),
-                                    .speed_integral = scale * gain(cascade.speed_integral),
-                                    .tracking_time = gain(cascade.tracking_time),
-                                    .filter = gain(cascade.filter)};
-  }
-  drive::ControllerOf<Number> reduced(const LeadLagController& lead_lag,
-                                      const Number& scale) const {
-    return drive::LeadLagOf<Number>{.gain = scale * gain(lead_lag.gain),
-                                    .zero = gain(lead_lag.zero),
-                                    .pole = gain(lead_lag.pole)};
-  }
-  drive::ControllerOf<Number> reduced(const TransferFunctionController& function,
-                                      const Number& scale) const {
-    const std::vector<Number> numerator =
-        scaled(gains(function.numerator), scale * gain(function.gain));
-    const std::vector<Number> denominator = gains(function.denominator);
-    if (function.is_sampled) return drive::SampledTransferOf<Number>{numerator, denominator};
-    return drive::ErrorTransferOf<Number>{{numerator, denominator, 0.0}};
-  }
-  drive::ControllerOf<Number> reduced(const StateSpaceController& system,
-                                      const Number& scale) const {
-    const Number factor = scale * gain(system.gain);
-    drive::LinearControllerOf<Number> reduced;
-    for (const std::vector<double>& row : system.A) reduced.state_matrix.push_back(gains(row));
-    for (const std::vector<double>& row : system.B) {
-      reduced.input_matrix.push_back(of_three_inputs(row));
-    }
-    reduced.output = scaled(gains(system.C), factor);
-    reduced.direct = scaled(of_three_inputs(system.D), factor);
-    return reduced;
-  }
-  /// On the signs that its ErrorShape gives.
-  drive::ControllerOf<Number> reduced(const RelayController& relay, const Number& scale) const {
-    return drive::ProportionalDerivativeOf<Number>{.proportional = scale * gain(relay.level)};
-  }
 
   /// Angles of the gains' shaft at the load.
   Number angle_scale() const {
@@ -401,9 +328,7 @@ class Reduction {
     const auto* faces = std::get_if<CompliantContact>(&drive_.contact);
     if (faces == nullptr) return drive::RigidContactOf<Number>{restitution()};
     return drive::CompliantContactOf<Number>{datum_(faces->stiffness), datum_(faces->damping),
-                                             faces->law == ContactDamping::full
-                                                 ? drive::ContactDamping::full
-                                                 : drive::ContactDamping::limited};
+                                             faces->law};
   }
 
   /// Linearised about the angle where the reference ends.
@@ -419,13 +344,6 @@ class Reduction {
     return {.torque = -weight * without_rounding(Number(cos(angle))),
             .stiffness = -weight * without_rounding(Number(sin(angle))),
             .angle = at};
-  }
-
-  drive::SamplingOf<Number> sampling() const {
-    return {.period = datum_(drive_.sampling->period),
-            .delay = datum_(drive_.sampling->delay),
-            .method = static_cast<drive::Discretization>(drive_.sampling->method),
-            .speed_by_differences = drive_.sampling->speed_by_differences};
   }
 
   const Drive& drive_;

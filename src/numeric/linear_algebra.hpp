@@ -12,6 +12,10 @@ namespace gearlash {
 /// numbers in units of very different sizes cost no digits.
 Eigen::MatrixXd exponential(const Eigen::MatrixXd& matrix);
 
+/// With its numbers in other units, by powers of 2, so that the sums of sizes of each row and its
+/// column are alike (Parlett & Reinsch 1969). The eigenvalues are the same, and lose fewer digits.
+Eigen::MatrixXd balanced(const Eigen::MatrixXd& matrix);
+
 /// All eigenvalues, by the QR algorithm.
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
 

@@ -37,14 +37,21 @@ Eigen::VectorXd balancing_scales(Eigen::MatrixXd matrix) {
   return scales;
 }
 
+Eigen::MatrixXd scaled_by(const Eigen::VectorXd& scales, const Eigen::MatrixXd& matrix) {
+  return scales.cwiseInverse().asDiagonal() * matrix * scales.asDiagonal();
+}
+
 }  // namespace
+
+Eigen::MatrixXd balanced(const Eigen::MatrixXd& matrix) {
+  const Eigen::VectorXd scales = balancing_scales(matrix);
+  return scales.allFinite() && matrix.allFinite() ? scaled_by(scales, matrix) : matrix;
+}
 
 Eigen::MatrixXd exponential(const Eigen::MatrixXd& matrix) {
   const Eigen::VectorXd scales = balancing_scales(matrix);
   if (!scales.allFinite() || !matrix.allFinite()) return matrix.exp();
-  const Eigen::MatrixXd balanced =
-      scales.cwiseInverse().asDiagonal() * matrix * scales.asDiagonal();
-  return scales.asDiagonal() * balanced.exp() * scales.cwiseInverse().asDiagonal();
+  return scales.asDiagonal() * scaled_by(scales, matrix).exp() * scales.cwiseInverse().asDiagonal();
 }
 
 }  // namespace gearlash

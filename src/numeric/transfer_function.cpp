@@ -66,25 +66,6 @@ Eigen::MatrixXd companion_matrix(const std::vector<double>& coefficients, double
   return companion;
 }
 
-/// Rows and columns scaled by powers of two until their sizes are alike (Parlett and Reinsch,
-/// Numerische Mathematik 13 (1969) 293), which leaves the eigenvalues unchanged and reduces
-/// rounding.
-void balance(Eigen::MatrixXd& matrix) {
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-      const double column = matrix.col(i).lpNorm<1>() - std::abs(matrix(i, i));
-      const double row = matrix.row(i).lpNorm<1>() - std::abs(matrix(i, i));
-      if (column == 0.0 || row == 0.0) continue;
-      const double factor = std::exp2(std::round(0.5 * std::log2(row / column)));
-      if (column * factor + row / factor >= 0.95 * (column + row)) continue;
-      matrix.col(i) *= factor;
-      matrix.row(i) /= factor;
-      changed = true;
-    }
-  }
-}
-
 Complex without_noise(const Complex& root) {
   constexpr double noise = 1e-9;
   return std::abs(root.real()) <= noise * std::abs(root) ? Complex{0.0, root.imag()} : root;
@@ -97,9 +78,7 @@ std::vector<Complex> roots_of(const std::vector<double>& polynomial) {
   if (degree == 0) return roots;
   const double product = std::abs(rest.coefficients.back() / rest.coefficients.front());
   const double scale = std::pow(product, 1.0 / static_cast<double>(degree));
-  Eigen::MatrixXd companion = companion_matrix(rest.coefficients, scale);
-  balance(companion);
-  const Eigen::VectorXcd values = eigenvalues(companion);
+  const Eigen::VectorXcd values = eigenvalues(balanced(companion_matrix(rest.coefficients, scale)));
   for (const Complex& eigenvalue : values) roots.push_back(without_noise(scale * eigenvalue));
   return roots;
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <complex>
-#include <tuple>
 #include <vector>
 
 #include "base/fault.hpp"
@@ -12,19 +11,13 @@ namespace gearlash {
 
 /// G(s) = numerator(s)/denominator(s) · e^{−s delay}. Coefficients by descending powers of s, the
 /// constant last: {1, 3, 0} is s² + 3s. Leading zeros are permitted and skipped.
-template <class Number>
-struct TransferFunctionOf {
-  std::vector<Number> numerator;
-  std::vector<Number> denominator;
-  Number delay = 0.0;  ///< at least 0, in the unit of time that s belongs to
+struct TransferFunction {
+  std::vector<double> numerator;
+  std::vector<double> denominator;
+  double delay = 0.0;  ///< at least 0, in the unit of time that s belongs to
 
-  bool operator==(const TransferFunctionOf&) const = default;
-  static constexpr auto members() {
-    return std::make_tuple(&TransferFunctionOf::numerator, &TransferFunctionOf::denominator,
-                           &TransferFunctionOf::delay);
-  }
+  bool operator==(const TransferFunction&) const = default;
 };
-using TransferFunction = TransferFunctionOf<double>;
 
 /// Faults: coefficients that are not finite, polynomials whose coefficients are all 0, a delay that
 /// is negative or not finite.

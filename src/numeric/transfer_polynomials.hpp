@@ -9,16 +9,8 @@
 
 namespace gearlash {
 
-/// x′ = state_matrix x + Σ input_columns[i] uᵢ, y = output x + Σ direct[i] uᵢ.
-template <class Number>
-struct LinearEquations {
-  std::vector<std::vector<Number>> state_matrix;   ///< n rows of n
-  std::vector<std::vector<Number>> input_columns;  ///< one of n for each input
-  std::vector<Number> output;                      ///< n
-  std::vector<Number> direct;                      ///< one for each input
-};
-
-/// y = Σ numerators[i](s)/denominator(s) uᵢ, by ascending powers. No common factors are taken out.
+/// Of x′ = A x + B u, y = C x + D u: y = Σ numerators[i](s)/denominator(s) uᵢ, by ascending powers.
+/// No common factors are taken out.
 template <class Number>
 struct TransferPolynomials {
   std::vector<Number> denominator;              ///< n + 1 coefficients, the last is 1
@@ -26,9 +18,11 @@ struct TransferPolynomials {
 };
 
 /// (s − A)⁻¹ = Σ M_k sⁿ⁻ᵏ/Σ c_k sⁿ⁻ᵏ with M_1 = 1, c_k = −tr(A M_k)/k, M_{k+1} = A M_k + c_k
-/// (Faddeev and Leverrier): exact for rationals, enclosed for intervals.
-template <class Number>
-TransferPolynomials<Number> transfer_polynomials(const LinearEquations<Number>& system) {
+/// (Faddeev and Leverrier): exact for rationals, enclosed for intervals. The system has rows
+/// state_matrix and input_matrix, A and B, and the rows output and direct, C and D.
+template <class System>
+auto transfer_polynomials(const System& system) {
+  using Number = typename decltype(System::output)::value_type;
   using Row = std::vector<Number>;
   const std::size_t order = system.output.size();
   const std::size_t inputs = system.direct.size();
@@ -48,8 +42,10 @@ TransferPolynomials<Number> transfer_polynomials(const LinearEquations<Number>& 
   };
   for (std::size_t k = 1; k <= order; ++k) {
     for (std::size_t input = 0; input < inputs; ++input) {
+      Row of_input;
+      for (const Row& row : system.input_matrix) of_input.push_back(row[input]);
       Row column;
-      for (const Row& row : adjugate) column.push_back(dot(row, system.input_columns[input]));
+      for (const Row& row : adjugate) column.push_back(dot(row, of_input));
       result.numerators[input][order - k] = dot(system.output, column);
     }
     adjugate = moved(adjugate);

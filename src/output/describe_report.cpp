@@ -168,9 +168,6 @@ Json json_nonlinearity(const Nonlinearity& nonlinearity) {
                  [](const InertiaControlledBacklash& gap) -> Json {
                    return {{"kind", "inertia-controlled backlash"}, {"gap", json_number(gap.gap)}};
                  },
-                 [](const Relay& relay) -> Json {
-                   return {{"kind", "relay"}, {"level", json_number(relay.level)}};
-                 },
                  [](const RelayWithHysteresis& relay) -> Json {
                    return {{"kind", "relay with hysteresis"},
                            {"level", json_number(relay.level)},

@@ -72,9 +72,6 @@ AmplitudeScale scale_of(const Nonlinearity& nonlinearity) {
                                [](const InertiaControlledBacklash& play) -> AmplitudeScale {
                                  return {0.5 * play.gap, "h", play.gap / std::numbers::pi, true};
                                },
-                               [](const Relay&) -> AmplitudeScale {
-                                 return {1.0, "", 0.0, false};
-                               },
                                [](const RelayWithHysteresis& relay) -> AmplitudeScale {
                                  return {relay.half_width, "δ", relay.half_width, true};
                                },

@@ -7,6 +7,7 @@
 #include "base/overloaded.hpp"
 #include "base/range_check.hpp"
 #include "base/shared_progress.hpp"
+#include "model/firmware.hpp"
 #include "model/reduced_drive.hpp"
 #include "question/analyse.hpp"
 #include "question/step_response.hpp"
@@ -36,21 +37,18 @@ void require_comparable(const std::vector<NamedDrive>& drives, const ComparisonO
   require_none(found);
 }
 
-std::optional<double> stiffness_of(const drive::ReducedDrive& drive) {
-  if (drive.error_shape.is_relay()) return std::nullopt;
+std::optional<double> stiffness_of(const Drive& given) {
+  const Drive drive = physical_form(without_registers(given));
+  const double scale = gain_scale(drive);
   using Stiffness = std::optional<double>;
-  return std::visit(Overloaded{[](const drive::ProportionalDerivative& law) -> Stiffness {
-                                 return law.proportional;
-                               },
-                               [](const drive::ProportionalIntegralDerivative& law) -> Stiffness {
-                                 return law.proportional;
-                               },
-                               [](const drive::Cascade& law) -> Stiffness {
-                                 return law.position * law.speed + law.speed_integral;
-                               },
-                               [](const drive::LeadLag& law) -> Stiffness { return law.gain; },
-                               [](const auto&) -> Stiffness { return std::nullopt; }},
-                    drive.controller);
+  return std::visit(
+      Overloaded{[&](const PID& law) -> Stiffness { return scale * law.proportional; },
+                 [&](const CascadeController& law) -> Stiffness {
+                   return law.position * (scale * law.speed) + scale * law.speed_integral;
+                 },
+                 [&](const LeadLagController& law) -> Stiffness { return scale * law.gain; },
+                 [](const auto&) -> Stiffness { return std::nullopt; }},
+      drive.controller.law);
 }
 
 /// Followed on where the load is still on its way, unless a time was given.
@@ -79,7 +77,7 @@ ComparedDrive compared(const NamedDrive& one, double step, const ComparisonOptio
                                          .motion_bytes = options.motion_bytes},
                                         progress),
                       .encoder_step = reduced.sensing.resolution,
-                      .stiffness = stiffness_of(reduced)};
+                      .stiffness = stiffness_of(one.drive)};
   const bool is_unstable = found.answer->loop && !found.answer->loop->is_stable;
   if (!is_unstable && faults(reduced).empty()) {
     found.answer->step = response_of(reduced, step, options.until, progress);

@@ -45,12 +45,12 @@ std::optional<Drive> closed_form_drive(Drive drive) {
 }
 
 std::optional<FinalServo> final_servo(const Drive& drive) {
-  const std::optional<Drive> at_rest = closed_form_drive(drive);
-  if (!at_rest) return std::nullopt;
-  FinalServo found{*closed_form_servo(*at_rest), *drive::proportional_drivetrain(reduce(*at_rest)),
-                   std::nullopt};
-  found.stiffness = stiffness_of(drive, found.drivetrain);
-  return found;
+  const Drive at_rest = without_ended_signals(drive);
+  const std::optional<Drivetrain> drivetrain = drive::proportional_drivetrain(reduce(at_rest));
+  if (!drivetrain) return std::nullopt;
+  const std::optional<ClosedFormServo> servo = closed_form_servo(at_rest, *drivetrain);
+  if (!servo) return std::nullopt;
+  return FinalServo{*servo, *drivetrain, stiffness_of(drive, *drivetrain)};
 }
 
 FinalServo servo_without_checks(const Drive& drive) {

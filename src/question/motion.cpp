@@ -47,8 +47,8 @@ class ClosedFormMotion : public Motion::Source {
                    Trajectory trajectory)
       : trajectory_(std::move(trajectory)),
         rate_(servo.natural_frequency),
-        stiffness_(gains_of(reduced)[0]),
-        speed_gain_(gains_of(reduced)[2]),
+        stiffness_(reduced.controller.direct[0]),
+        speed_gain_(reduced.controller.direct[2]),
         load_share_of_speed_(reduced.sensing.load_share_of_speed),
         reference_(std::get<double>(reduced.reference)) {
     for (const Event& event : trajectory_.events()) {
@@ -102,11 +102,6 @@ class ClosedFormMotion : public Motion::Source {
   }
 
  private:
-  static std::vector<double> gains_of(const drive::ReducedDrive& reduced) {
-    const auto direct = drive::linear_controller(reduced.controller).direct;
-    return {direct.begin(), direct.end()};
-  }
-
   Shafts shafts_of(const ServoState& state) const {
     return {state.load_position, state.load_speed * rate_, state.motor_position,
             state.motor_speed * rate_};

@@ -10,17 +10,13 @@
 
 #include "base/range_check.hpp"
 #include "general/assemble/time_scale.hpp"
+#include "general/attractors/motion_measures.hpp"
 #include "question/motion.hpp"
 
 namespace gearlash::drive {
 namespace {
 
-struct Point {
-  double time;
-  double position;  ///< of the load, along the step
-};
-
-/// The load's path: all its turning points, with samples between them.
+/// The load's path along the step: all its turning points, with samples between them.
 class Path {
  public:
   Path(const hybrid::Trajectory& motion, double way) : motion_(motion), way_(way) {
@@ -36,12 +32,12 @@ class Path {
     }
   }
 
-  const std::vector<Point>& points() const { return points_; }
+  const std::vector<Sample>& points() const { return points_; }
 
   /// The first time at which the path crosses the level, in either direction.
   std::optional<double> first_passing(double level) const {
     for (std::size_t i = 1; i < points_.size(); ++i) {
-      if ((points_[i - 1].position < level) != (points_[i].position < level)) {
+      if ((points_[i - 1].value < level) != (points_[i].value < level)) {
         return passing_between(i - 1, i, level);
       }
     }
@@ -50,13 +46,11 @@ class Path {
 
   /// The time from which the path stays within the band about a level; empty if it ends outside.
   std::optional<double> time_into_band(double level, double band) const {
-    const auto outside = [&](const Point& point) {
-      return std::abs(point.position - level) > band;
-    };
+    const auto outside = [&](const Sample& point) { return std::abs(point.value - level) > band; };
     if (outside(points_.back())) return std::nullopt;
     for (std::size_t i = points_.size(); i-- > 1;) {
       if (!outside(points_[i - 1])) continue;
-      const double edge = points_[i - 1].position < level ? level - band : level + band;
+      const double edge = points_[i - 1].value < level ? level - band : level + band;
       return passing_between(i - 1, i, edge);
     }
     return 0.0;
@@ -94,7 +88,7 @@ class Path {
 
   const hybrid::Trajectory& motion_;
   double way_;
-  std::vector<Point> points_;
+  std::vector<Sample> points_;
 };
 
 void measure(const Path& path, bool is_stopped, StepResponse& response) {
@@ -110,11 +104,11 @@ void measure(const Path& path, bool is_stopped, StepResponse& response) {
   double highest = 0.0;
   double last_lowest = std::numeric_limits<double>::infinity();
   double last_highest = -last_lowest;
-  for (const Point& point : path.points()) {
-    highest = std::max(highest, point.position);
+  for (const Sample& point : path.points()) {
+    highest = std::max(highest, point.value);
     if (point.time < late) continue;
-    last_lowest = std::min(last_lowest, point.position);
-    last_highest = std::max(last_highest, point.position);
+    last_lowest = std::min(last_lowest, point.value);
+    last_highest = std::max(last_highest, point.value);
   }
   if (response.is_whole) response.overshoot = std::max(0.0, highest / step - 1.0);
   const double error = step - 0.5 * (last_lowest + last_highest);

@@ -9,6 +9,7 @@
 
 #include "base/stopping.hpp"
 #include "closed_form/limit_cycle.hpp"
+#include "controllers.hpp"
 #include "drives.hpp"
 
 namespace gearlash::drive::attractors_test {
@@ -174,7 +175,7 @@ TEST(OracleAttractors, AnUnstableCycleSeparatesRestAndHunting) {
 /// that, the motion does not run away.
 TEST(OracleAttractors, ATorqueLimitBoundsMotionWhateverTheGap) {
   ReducedDrive drive = servo_drive(0.19, 2.0, 0.1);
-  drive.controller = ProportionalDerivative{1.0, -0.5};
+  drive.controller = at_load(PID{PIDTerms::PD, 1.0, 0.0, -0.5});
   drive.torque_limit = 0.3;
   for (const double gap : {1e-9, 1e-11, 1e-13}) {
     drive.backlash = gap;
@@ -321,10 +322,11 @@ ReducedDrive random_drive(std::mt19937& random) {
     friction->breakaway = friction->coulomb * (1.0 + share(random));
   }
   if (one_in(3)) {
-    drive.controller = ProportionalIntegralDerivative{.proportional = 1.0,
-                                                      .integral = between(0.01, 0.1),
-                                                      .derivative = between(0.1, 1.0),
-                                                      .filter = 0.05};
+    drive.controller = at_load(PID{.terms = PIDTerms::PID,
+                                   .proportional = 1.0,
+                                   .integral = between(0.01, 0.1),
+                                   .derivative = between(0.1, 1.0),
+                                   .filter = 0.05});
   }
   if (one_in(3)) drive.torque_limit = between(0.05, 1.0);
   if (one_in(4)) drive.sensing.load_share_of_position = share(random);
@@ -382,10 +384,11 @@ ReducedDrive twisting_joint(double proportional, bool derivative_of_speed) {
   drive.load = {1.0, {.viscous = 1.0}};
   drive.contact = CompliantContact{31e3, 5.0};
   drive.sensing.load_share_of_speed = 1.0;
-  drive.controller = ProportionalIntegralDerivative{.proportional = proportional,
-                                                    .derivative = 150.0,
-                                                    .filter = 1e-3,
-                                                    .derivative_of_speed = derivative_of_speed};
+  drive.controller = at_load(PID{.terms = PIDTerms::PID,
+                                 .proportional = proportional,
+                                 .derivative = 150.0,
+                                 .filter = 1e-3,
+                                 .derivative_of_speed = derivative_of_speed});
   drive.torque_limit = 140.0;
   return drive;
 }
@@ -430,7 +433,7 @@ TEST(FollowAttractors, GivesUpWhereTheDriveEndsInSomethingElse) {
   EXPECT_FALSE(follow_attractors(servo_drive(0.19, 2.0, 0.1), resting));
   EXPECT_TRUE(follow_attractors(servo_drive(0.91, 2.0, 0.1), resting));
   ReducedDrive unstable = servo_drive(0.9, 2.0, 0.1);
-  unstable.controller = ProportionalIntegralDerivative{.proportional = 1.0, .integral = 10.0};
+  unstable.controller = at_load(PID{.terms = PIDTerms::PID, .proportional = 1.0, .integral = 10.0});
   const AttractorSearch running_away = find_attractors(unstable);
   EXPECT_EQ(running_away.count(MotionEnd::diverges), running_away.outcomes.size());
   EXPECT_FALSE(follow_attractors(servo_drive(0.9, 2.0, 0.1), running_away));
@@ -444,8 +447,8 @@ ReducedDrive pd_drive(double gain, double filter = 1e-3) {
   drive.load = {5e-3, {.viscous = 1e-3, .coulomb = 5e-3, .breakaway = 5e-3}};
   drive.backlash = 2e-3;
   drive.contact = RigidContact{};
-  drive.controller = ProportionalIntegralDerivative{
-      .proportional = 20.0 * gain, .derivative = 0.4, .filter = filter};
+  drive.controller = at_load(PID{
+      .terms = PIDTerms::PID, .proportional = 20.0 * gain, .derivative = 0.4, .filter = filter});
   return drive;
 }
 

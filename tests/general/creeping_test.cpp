@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "controllers.hpp"
+
 namespace gearlash::drive::creeping_test {
 namespace {
 
@@ -34,7 +36,7 @@ ReducedDrive drive_with_dry_friction() {
   drive.motor = {0.5, {.viscous = 0.1, .coulomb = 0.1, .breakaway = 0.1}};
   drive.load = {0.5, {.viscous = 0.1, .coulomb = 0.1, .breakaway = 0.1}};
   drive.backlash = 0.3;
-  drive.controller = ProportionalIntegralDerivative{1.0, 0.01, 0.0, 0.0};
+  drive.controller = at_load(PID{PIDTerms::PID, 1.0, 0.01, 0.0, 0.0});
   return drive;
 }
 
@@ -129,7 +131,7 @@ TEST(Creeping, NeedsBothShaftsToStandWhereFrictionHoldsTheOtherAlone) {
 
 TEST(Creeping, NeedsIntegralActionOfTheErrorItself) {
   ReducedDrive drive = drive_with_dry_friction();
-  drive.controller = ProportionalDerivative{1.0, 0.0};
+  drive.controller = at_load(PID{.proportional = 1.0});
   EXPECT_FALSE(creeps(drive, ever_later));
   drive = drive_with_dry_friction();
   drive.sensing.resolution = 1.0;  // larger than every error

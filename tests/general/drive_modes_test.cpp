@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "controllers.hpp"
 #include "general/assemble/drive_system.hpp"
 #include "general/assemble/moving_frame.hpp"
 
@@ -19,8 +20,11 @@ ReducedDrive full_drive(const Contact& contact) {
   drive.backlash = 0.01;
   drive.contact = contact;
   drive.torque_limit = 10.0;
-  drive.controller = ProportionalIntegralDerivative{
-      .proportional = 40.0, .integral = 20.0, .derivative = 13.0, .tracking_time = 0.5};
+  drive.controller = at_load(PID{.terms = PIDTerms::PID,
+                                 .proportional = 40.0,
+                                 .integral = 20.0,
+                                 .derivative = 13.0,
+                                 .tracking_time = 0.5});
   return drive;
 }
 

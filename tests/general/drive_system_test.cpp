@@ -91,8 +91,8 @@ TEST(OracleDriveSystem, TheRigidServoIsTheClosedForm) {
 TEST(EdgeDriveSystem, FaultsAreToldAllAtOnce) {
   ReducedDrive drive = modelica_backlash(ContactDamping::full);
   drive.backlash = -1.0;
-  drive.motor.friction = {.coulomb = 1.0, .breakaway = 0.5};
-  drive.torque_limit = -1.0;
+  drive.load.inertia = 0.0;
+  drive.controller.direct.clear();
   try {
     drive_system(drive);
     FAIL();

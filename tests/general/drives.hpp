@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "controllers.hpp"
 #include "general/assemble/drive_system.hpp"
 
 namespace gearlash::drive {
@@ -16,7 +17,7 @@ inline ReducedDrive servo_drive(double damping, double inertia_ratio, double fri
   drive.load = {inertia_ratio / (1.0 + inertia_ratio), {.viscous = 2.0 * damping * friction_ratio}};
   drive.backlash = 0.3;
   drive.contact = RigidContact{restitution};
-  drive.controller = ProportionalDerivative{1.0, 0.0};
+  drive.controller = at_load(PID{.proportional = 1.0});
   return drive;
 }
 

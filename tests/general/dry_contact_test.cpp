@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "controllers.hpp"
 #include "drives.hpp"
 
 namespace gearlash::drive::dry_contact_test {
@@ -22,7 +23,7 @@ ReducedDrive dry_pair() {
 /// torque is within both breakaways, 0.8 N m; beyond, they swing back about 0.3 rad.
 TEST(OracleDryContact, ShaftsThatStopTogetherStayWithinBothBreakaways) {
   ReducedDrive drive = dry_pair();
-  drive.controller = ProportionalDerivative{1.0, 0.0};
+  drive.controller = at_load(PID{.proportional = 1.0});
   const double rate = std::sqrt(1.0 / 3.0);
   constexpr double first = 0.1;  // rad, of the load
   for (const double side : {1.0, -1.0}) {

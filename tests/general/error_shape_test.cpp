@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "controllers.hpp"
 #include "drives.hpp"
 
 namespace gearlash::drive::error_shape_test {
@@ -65,7 +66,7 @@ std::vector<Shaped> shapes() {
 TEST(OracleErrorShape, MovesAsSmallStepsDo) {
   for (const auto& [name, shape] : shapes()) {
     ReducedDrive drive = lone_motor(motor);
-    drive.controller = ProportionalDerivative{.proportional = 4.0};
+    drive.controller = at_load(PID{.proportional = 4.0});
     drive.error_shape = shape;
     const auto motion = moved(drive, {.motor_position = 1.0}, 20.0);
     int branch = shape.is_two_level() ? -1 : 0;
@@ -94,7 +95,7 @@ TEST(OracleErrorShape, IsARecursionFromSampleToSample) {
   for (const double delay : {0.0, 0.03, period, 0.25}) {
     for (const auto& [name, shape] : shapes()) {
       ReducedDrive drive = lone_motor({inertia});
-      drive.controller = ProportionalDerivative{4.0, 3.0};
+      drive.controller = at_load(PID{PIDTerms::PD, 4.0, 0.0, 3.0});
       drive.error_shape = shape;
       drive.sampling = Sampling{.period = period, .delay = delay};
       drive.sensing.resolution = drive.sensing.resolution_of_speed = 0.013;
@@ -136,7 +137,7 @@ TEST(OracleErrorShape, IsARecursionFromSampleToSample) {
 
 TEST(EdgeErrorShape, ThatMaySwitchWithoutEndIsRefused) {
   ReducedDrive drive = lone_motor(motor);
-  drive.controller = ProportionalDerivative{.proportional = 4.0};
+  drive.controller = at_load(PID{.proportional = 4.0});
   drive.error_shape = relay(0.1, 0.0);
   ASSERT_EQ(faults(drive).size(), 1U);
   EXPECT_EQ(faults(drive)[0].path, "error_shape.hysteresis");

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "controllers.hpp"
 #include "drives.hpp"
 
 namespace gearlash::drive::falling_friction_test {
@@ -45,7 +46,7 @@ ReducedDrive drawn_load() {
   drive.motor.inertia = 0.9;
   drive.load = {0.1, {.viscous = 0.02, .coulomb = 0.3, .breakaway = 0.5, .stribeck_speed = 0.3}};
   drive.backlash = 0.1;
-  drive.controller = ProportionalDerivative{1.0, 0.0};
+  drive.controller = at_load(PID{.proportional = 1.0});
   drive.reference = Ramp{0.0, 0.1, 0.0};
   return drive;
 }

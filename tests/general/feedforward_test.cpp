@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "controllers.hpp"
 #include "drives.hpp"
 
 namespace gearlash::drive::feedforward_test {
@@ -14,7 +15,7 @@ constexpr double damping = 3.0;
 
 ReducedDrive controlled_motor() {
   ReducedDrive drive = lone_motor({2.0, {.viscous = 0.5}});
-  drive.controller = ProportionalDerivative{stiffness, damping};
+  drive.controller = at_load(PID{PIDTerms::PD, stiffness, 0.0, damping});
   return drive;
 }
 

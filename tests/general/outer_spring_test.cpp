@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "controllers.hpp"
 #include "drives.hpp"
 #include "general/assemble/time_scale.hpp"
 #include "general/attractors/attractors.hpp"
@@ -17,7 +18,7 @@ ReducedDrive two_shafts() {
   drive.motor = {0.3, {.viscous = 0.02}};
   drive.load = {0.7, {.viscous = 0.05}};
   drive.backlash = 0.01;
-  drive.controller = ProportionalDerivative{.proportional = 9.0};
+  drive.controller = at_load(PID{.proportional = 9.0});
   return drive;
 }
 

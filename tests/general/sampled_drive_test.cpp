@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "controllers.hpp"
 #include "drives.hpp"
 
 namespace gearlash::drive::sampled_drive_test {
@@ -57,7 +58,7 @@ TEST(OracleSampledDrive, IsARecursionFromSampleToSample) {
                             Sampled{0.03, 0.023, 2.0, 0.0071}};
   for (const auto& [delay, resolution, limit, resolution_of_speed] : cases) {
     ReducedDrive drive = drawn_motor();
-    drive.controller = ProportionalDerivative{4.0, 3.0};
+    drive.controller = at_load(PID{PIDTerms::PD, 4.0, 0.0, 3.0});
     drive.sampling = Sampling{.period = period, .delay = delay};
     drive.sensing.resolution = resolution;
     drive.sensing.resolution_of_speed = resolution_of_speed;
@@ -89,7 +90,7 @@ TEST(OracleSampledDrive, IsARecursionFromSampleToSample) {
 TEST(OracleSampledDrive, ATachometerReadsTheSpeedItself) {
   constexpr double period = 0.1;
   ReducedDrive drive = drawn_motor();
-  drive.controller = ProportionalDerivative{4.0, 3.0};
+  drive.controller = at_load(PID{PIDTerms::PD, 4.0, 0.0, 3.0});
   drive.sampling = Sampling{.period = period, .speed_by_differences = false};
   drive.sensing.resolution = drive.sensing.resolution_of_speed = 0.023;
   Motor motor{0.2, 0.3};
@@ -127,8 +128,11 @@ TEST(OracleSampledDrive, AntiWindupIsARecursionFromSampleToSample) {
   for (const auto& [method, share, delay] : cases) {
     SCOPED_TRACE(delay);
     ReducedDrive drive = drawn_motor();
-    drive.controller = ProportionalIntegralDerivative{
-        .proportional = 4.0, .integral = 1.5, .derivative = 3.0, .tracking_time = tracking_time};
+    drive.controller = at_load(PID{.terms = PIDTerms::PID,
+                                   .proportional = 4.0,
+                                   .integral = 1.5,
+                                   .derivative = 3.0,
+                                   .tracking_time = tracking_time});
     drive.sampling = Sampling{.period = period, .delay = delay, .method = method};
     drive.torque_limit = limit;
     Motor motor{0.2, 0.3};
@@ -161,7 +165,7 @@ TEST(OracleSampledDrive, AntiWindupIsARecursionFromSampleToSample) {
 TEST(SampledDrive, EveryNumberOfItsStateHasAName) {
   ReducedDrive drive = drawn_motor();
   drive.controller =
-      ProportionalIntegralDerivative{.integral = 1.0, .derivative = 1.0, .filter = 0.1};
+      at_load(PID{.terms = PIDTerms::PID, .integral = 1.0, .derivative = 1.0, .filter = 0.1});
   drive.sampling = Sampling{.period = 0.1, .delay = 0.05};
   const std::vector<std::string> names = drive_system(drive).system.state_names;
   EXPECT_EQ(std::vector(names.begin(), names.begin() + 9),
@@ -174,7 +178,7 @@ TEST(SampledDrive, EveryNumberOfItsStateHasAName) {
 /// A continuous controller with an encoder: between counts the torque is constant.
 TEST(OracleSampledDrive, AnEncoderHoldsTheTorqueBetweenItsCounts) {
   ReducedDrive drive = drawn_motor();
-  drive.controller = ProportionalDerivative{4.0, 0.0};
+  drive.controller = at_load(PID{.proportional = 4.0});
   drive.sensing.resolution = 0.1;
   const auto motion = moved(drive, {}, 0.9);
   // From 0 to the first count, at 0.05, by τ = 4; then by 4 · 0.9 until 0.15.
@@ -213,7 +217,7 @@ Complex response(const LinearController& controller, Complex at) {
 }
 
 TEST(OracleSampledController, IsTheContinuousOneWithAnotherDerivative) {
-  const Controller pid = ProportionalIntegralDerivative{3.0, 2.0, 0.7, 0.05, 0.4};
+  const LinearController pid = at_load(PID{PIDTerms::PID, 3.0, 2.0, 0.7, 0.05, 0.4});
   constexpr double period = 0.02;
   for (const Complex z : {std::polar(1.0, 0.3), std::polar(0.9, 2.0), Complex(-0.8, 0.1)}) {
     const auto expect = [&](Discretization method, Complex s) {
@@ -226,7 +230,8 @@ TEST(OracleSampledController, IsTheContinuousOneWithAnotherDerivative) {
     expect(Discretization::backward, (z - 1.0) / (period * z));
     expect(Discretization::forward, (z - 1.0) / period);
   }
-  const Controller filter = SampledTransfer{{0.5, 0.1}, {1.0, -0.9}};
+  const LinearController filter =
+      at_load(TransferFunctionController{1.0, {0.5, 0.1}, {1.0, -0.9}, true});
   const Complex z = std::polar(1.0, 0.7);
   EXPECT_LT(std::abs(response(sampled_controller(filter, {.period = period}), z) -
                      (0.5 * z + 0.1) / (z - 0.9)),
@@ -240,7 +245,7 @@ TEST(EdgeSampledDrive, FaultsAreToldAllAtOnce) {
     return fields;
   };
   ReducedDrive drive = drawn_motor();
-  drive.controller = SampledTransfer{{1.0}, {1.0, -2.0}};
+  drive.controller = at_load(TransferFunctionController{1.0, {1.0}, {1.0, -2.0}, true});
   const auto with_denominator = [](const std::string& other) {
     return std::vector<std::string>{"controller.denominator", other};
   };
@@ -253,7 +258,7 @@ TEST(EdgeSampledDrive, FaultsAreToldAllAtOnce) {
   EXPECT_EQ(fields_of(drive), std::vector<std::string>{"controller.denominator"});
   // A filter that forward differences cannot follow: 1 − T/T_f < −1.
   drive.controller =
-      ProportionalIntegralDerivative{.proportional = 1.0, .derivative = 1.0, .filter = 0.04};
+      at_load(PID{.terms = PIDTerms::PID, .proportional = 1.0, .derivative = 1.0, .filter = 0.04});
   EXPECT_TRUE(faults(drive).empty());
   drive.sampling->method = Discretization::forward;
   EXPECT_EQ(fields_of(drive), std::vector<std::string>{"sampling.period"});

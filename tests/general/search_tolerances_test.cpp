@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "controllers.hpp"
 #include "drives.hpp"
 #include "general/attractors/attractors.hpp"
 #include "general/attractors/found_cycle.hpp"
@@ -94,7 +95,8 @@ TEST(SearchTolerances, SwingsThatGrowFarBeyondTheDriveRunAway) {
   ReducedDrive limited = hunting;
   limited.torque_limit = 1.0;
   EXPECT_FALSE(runs_away(growing, search_setting(limited, {})));  // 410 < 1e3 · 1 N m/(1 N m/rad)
-  limited.controller = ErrorTransfer{{{1.0}, {1.0, 1.0}}};  // lets no leap of the error through
+  limited.controller = at_load(
+      TransferFunctionController{1.0, {1.0}, {1.0, 1.0}});  // lets no leap of the error through
   EXPECT_FALSE(runs_away(growing, search_setting(limited, {})));
 }
 

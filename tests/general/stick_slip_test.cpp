@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/references.hpp"
+#include "controllers.hpp"
 #include "drives.hpp"
 #include "general/attractors/attractors.hpp"
 
@@ -70,7 +71,7 @@ ReducedDrive belt_drive(const Belt& belt) {
   drive.load = {0.1 * belt.mass, {.coulomb = belt.sliding, .breakaway = belt.breakaway}};
   drive.backlash = 0.1;
   drive.contact = RigidContact{0.0};
-  drive.controller = ProportionalDerivative{belt.spring, 0.0};
+  drive.controller = at_load(PID{.proportional = belt.spring});
   drive.reference = Ramp{0.0, belt.speed, 0.0};
   return drive;
 }
@@ -79,7 +80,7 @@ ReducedDrive belt_drive(const Belt& belt) {
 /// below the breakaway as it stops, though above what friction is while it slides.
 TEST(OracleStickSlip, AShaftThatStopsWithinItsBreakawayStaysThere) {
   ReducedDrive drive = lone_motor({2.0, {.coulomb = 0.3, .breakaway = 0.5}});
-  drive.controller = ProportionalDerivative{1.0, 0.0};
+  drive.controller = at_load(PID{.proportional = 1.0});
   for (const auto& [start, end] : {std::pair{1.0, -0.4}, std::pair{1.3, 0.1}, {-1.0, 0.4}}) {
     const auto motion = moved(drive, {.motor_position = start}, 99.0);
     EXPECT_NEAR(motion.end().numbers[motor_position], end, 1e-14) << start;
@@ -167,10 +168,11 @@ TEST(OracleStickSlip, APidDriveWithStictionHuntsAsInManyDigits) {
   drive.load = {number("load_inertia"), {.viscous = number("load_friction")}};
   drive.backlash = number("backlash");
   drive.contact = RigidContact{0.0};
-  drive.controller = ProportionalIntegralDerivative{.proportional = number("proportional"),
-                                                    .integral = number("integral"),
-                                                    .derivative = number("derivative"),
-                                                    .derivative_of_speed = true};
+  drive.controller = at_load(PID{.terms = PIDTerms::PID,
+                                 .proportional = number("proportional"),
+                                 .integral = number("integral"),
+                                 .derivative = number("derivative"),
+                                 .derivative_of_speed = true});
   const AttractorSearch found = find_attractors(
       drive, {.starts = {{0.515625, 0.0, 0.5, 0.0}, {0.0, 0.0, 0.01, 0.0}, {5.0, 0.0, 5.0, 0.0}}});
   ASSERT_EQ(found.cycles.size(), 1U);

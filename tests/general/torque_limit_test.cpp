@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "controllers.hpp"
 #include "drives.hpp"
 
 namespace gearlash::drive::torque_limit_test {
@@ -13,7 +14,7 @@ namespace {
 TEST(OracleTorqueLimit, BothEndsAreReachedAndLeft) {
   ReducedDrive drive = lone_motor({2.0});
   drive.reference = 1.0;
-  drive.controller = ProportionalDerivative{8.0, 0.0};
+  drive.controller = at_load(PID{.proportional = 8.0});
   drive.torque_limit = 2.0;
   const double accelerated = std::sqrt(1.5);  // 0.75 rad, and the speed there
   const double swinging = std::atan(2.0 * 0.25 / accelerated);
@@ -44,8 +45,10 @@ TEST(OracleTorqueLimit, AntiWindupDrawsTheIntegralBack) {
   for (const double side : {1.0, -1.0}) {
     ReducedDrive drive = lone_motor({1e15});
     drive.reference = side;
-    drive.controller = ProportionalIntegralDerivative{
-        .proportional = proportional, .integral = integral, .tracking_time = tracking_time};
+    drive.controller = at_load(PID{.terms = PIDTerms::PID,
+                                   .proportional = proportional,
+                                   .integral = integral,
+                                   .tracking_time = tracking_time});
     drive.torque_limit = limit;
     const auto motion = moved(drive, {}, 3.0);
     constexpr double end = limit + integral * tracking_time;

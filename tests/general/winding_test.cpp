@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "controllers.hpp"
 #include "drives.hpp"
 #include "general/assemble/time_scale.hpp"
 
@@ -21,7 +22,7 @@ ReducedDrive free_motor(double time_constant) {
   drive.load = {1.0, {.viscous = 0.1}};
   drive.backlash = 100.0;
   drive.sensing = {.load_share_of_position = 0.0};
-  drive.controller = ProportionalDerivative{.proportional = stiffness};
+  drive.controller = at_load(PID{.proportional = stiffness});
   drive.winding = {.time_constant = time_constant, .back_emf = 0.4};
   drive.reference = reference;
   return drive;
@@ -91,7 +92,7 @@ TEST(OracleCurrentLimit, HoldsTheTorqueUntilTheBackEmfTakesTheRest) {
     ReducedDrive drive = free_motor(0.0);
     drive.motor.friction.viscous = back_emf;
     drive.winding.torque_limit = limit;
-    drive.controller = ProportionalDerivative{.proportional = 1.0};
+    drive.controller = at_load(PID{.proportional = 1.0});
     drive.torque_limit = voltage_torque;
     drive.reference = way * 1e4;
     const DriveSystem built = drive_system(drive);

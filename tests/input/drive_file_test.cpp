@@ -20,6 +20,7 @@ namespace {
 
 using test::replaced;
 using ::testing::Contains;
+using ::testing::DoubleEq;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -116,17 +117,16 @@ TEST(DriveFile, EveryBlockIsReadAndReferredToTheLoad) {
   EXPECT_DOUBLE_EQ(drive.backlash, 0.2 * pi / 180.0);
   const auto contact = std::get<drive::CompliantContact>(drive.contact);
   EXPECT_EQ(contact.stiffness, 500.0);
-  EXPECT_EQ(contact.law, drive::ContactDamping::full);
+  EXPECT_EQ(contact.law, ContactDamping::full);
   EXPECT_EQ(drive.sensing.load_share_of_position, 1.0);
   EXPECT_EQ(drive.sensing.load_share_of_speed, 0.0);
   EXPECT_DOUBLE_EQ(drive.sensing.resolution, 2.0 * pi / 4096.0);
   EXPECT_DOUBLE_EQ(drive.sensing.resolution_of_speed, 2.0 * pi / 5000.0);
-  const auto pid = std::get<drive::ProportionalIntegralDerivative>(drive.controller);
-  EXPECT_DOUBLE_EQ(pid.proportional, 25.0);
-  EXPECT_DOUBLE_EQ(pid.integral, 50.0);
-  EXPECT_DOUBLE_EQ(pid.derivative, 1.0);
-  EXPECT_DOUBLE_EQ(pid.filter, 0.005);
-  EXPECT_EQ(drive.sampling->method, drive::Discretization::backward);
+  // 25 + 50/s + s/(0.005 s + 1), of the error
+  EXPECT_THAT(drive.controller.direct, ElementsAre(DoubleEq(225.0), DoubleEq(-225.0), 0.0));
+  EXPECT_DOUBLE_EQ(drive.controller.input_matrix[0][0], 50.0);
+  EXPECT_DOUBLE_EQ(drive.controller.state_matrix[1][1], -200.0);
+  EXPECT_EQ(drive.sampling->method, Discretization::backward);
   EXPECT_DOUBLE_EQ(drive.sampling->delay, 5e-4);
   EXPECT_DOUBLE_EQ(std::get<drive::Trapezoid>(drive.reference).to, 0.5 * pi);
   EXPECT_DOUBLE_EQ(std::get<drive::StepSignal>(drive.load_torque).after, 0.1);
@@ -139,7 +139,7 @@ TEST(DriveFile, GainsMayBeThoseOfTheMotorOrMixed) {
   const auto proportional = [](const std::string& shaft) {
     const ReadDrive file =
         drive_of(replaced(joint, "shaft = \"load\"", "shaft = \"" + shaft + "\""));
-    return std::get<drive::ProportionalIntegralDerivative>(file.drive.controller).proportional;
+    return file.drive.controller.direct[0] / 9.0;  // with derivative/filter
   };
   EXPECT_DOUBLE_EQ(proportional("load"), 25.0);
   EXPECT_DOUBLE_EQ(proportional("motor"), 25.0 * 2500.0);
@@ -152,8 +152,7 @@ TEST(DriveFile, VoltsComeThroughTheArmature) {
                "[controller]\nkind = \"P\"\nproportional = \"3 V/rad\"\n");
   // K₁ n / R = 0.1 N m at the load per volt.
   EXPECT_DOUBLE_EQ(file.drive.torque_limit, 1.2);
-  EXPECT_DOUBLE_EQ(std::get<drive::ProportionalDerivative>(file.drive.controller).proportional,
-                   0.3);
+  EXPECT_DOUBLE_EQ(file.drive.controller.direct[0], 0.3);
   EXPECT_DOUBLE_EQ(file.drive.motor.friction.viscous, 1e-3 + 0.02 * 0.02 / 2.0 * 100.0);
 }
 
@@ -162,7 +161,7 @@ TEST(OracleDriveFile, AProportionalControllerIsTheServoOfALoop) {
                                                     "proportional = \"3 V/rad\"\n"));
   const auto servo = parse_servo(plain + std::string("[loop]\nerror_gain = \"3 V/rad\"\n"));
   EXPECT_EQ(file, servo);
-  EXPECT_EQ(drive::proportional_servo(drive::drive_of(servo.drivetrain.value())), servo.drivetrain);
+  EXPECT_EQ(drive::proportional_drivetrain(drive::drive_of(servo.drivetrain.value())), servo.drivetrain);
   // Whatever it has besides has no closed form.
   const auto with = [&](const std::string& more) {
     return closed_form_servo(
@@ -193,20 +192,20 @@ TEST(DriveFile, ControllersOfEveryKind) {
   const auto controller = [](const std::string& text) {
     return drive_of(plain + std::string("[controller]\n") + text).drive.controller;
   };
-  const auto lead = std::get<drive::LeadLag>(
-      controller("kind = \"lead-lag\"\ngain = \"1 V/rad\"\nzero = \"1 Hz\"\npole = \"9 rad/s\"\n"));
-  EXPECT_DOUBLE_EQ(lead.zero, 2.0 * pi);
-  const auto cascade = std::get<drive::Cascade>(
-      controller("kind = \"cascade\"\nposition = \"20 1/s\"\nspeed = \"0.5 V s/rad\"\n"
-                 "speed_integral = \"2 V/rad\"\n"));
-  EXPECT_DOUBLE_EQ(cascade.position, 20.0);
-  EXPECT_DOUBLE_EQ(cascade.speed_integral, 0.2);
-  const auto any = std::get<drive::ErrorTransfer>(controller(
-      "kind = \"transfer-function\"\ngain = \"10 V/rad\"\nnum = [1, 2.5]\nden = [0.5, 1, 0]\n"));
-  EXPECT_THAT(any.function.numerator, ElementsAre(1.0, 2.5));
-  const auto state = std::get<drive::LinearController>(
-      controller("kind = \"state-space\"\ngain = \"10 V/rad\"\nA = [[-1, 0], [1, -2]]\n"
-                 "B = [[1], [0]]\nC = [0, 1]\nD = [0.5]\n"));
+  const auto lead =
+      controller("kind = \"lead-lag\"\ngain = \"1 V/rad\"\nzero = \"1 Hz\"\npole = \"9 rad/s\"\n");
+  EXPECT_DOUBLE_EQ(lead.direct[0], 0.1 * 9.0 / (2.0 * pi));
+  const auto cascade = controller(
+      "kind = \"cascade\"\nposition = \"20 1/s\"\nspeed = \"0.5 V s/rad\"\n"
+      "speed_integral = \"2 V/rad\"\n");
+  EXPECT_THAT(cascade.direct, ElementsAre(DoubleEq(1.0), DoubleEq(-1.0), DoubleEq(-0.05)));
+  EXPECT_DOUBLE_EQ(cascade.input_matrix[0][2], -0.2);
+  const auto any = controller(
+      "kind = \"transfer-function\"\ngain = \"10 V/rad\"\nnum = [1, 2.5]\nden = [0.5, 1, 0]\n");
+  EXPECT_THAT(any.output, ElementsAre(5.0, 2.0));
+  const auto state = controller(
+      "kind = \"state-space\"\ngain = \"10 V/rad\"\nA = [[-1, 0], [1, -2]]\n"
+      "B = [[1], [0]]\nC = [0, 1]\nD = [0.5]\n");
   EXPECT_THAT(state.input_matrix[0], ElementsAre(1.0, -1.0, 0.0));
   EXPECT_THAT(state.direct, ElementsAre(0.5, -0.5, 0.0));
   EXPECT_THAT(refusals(plain + std::string("[controller]\nkind = \"state-space\"\n"

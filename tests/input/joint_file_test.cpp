@@ -46,8 +46,7 @@ std::vector<std::string> refusals(const std::vector<Setting>& settings) {
 
 TEST(JointFile, IsReadAndReferredToTheLoad) {
   const drive::ReducedDrive reduced = reduce(read());
-  const auto& gains = std::get<drive::ProportionalIntegralDerivative>(reduced.controller);
-  EXPECT_EQ(gains.proportional, 100.0);
+  EXPECT_EQ(reduced.controller.direct[0], 100.0);
   EXPECT_DOUBLE_EQ(reduced.torque_limit, 0.03 * 20.0 * 50.0);
   // 30° below the horizontal: −8 cos 30° N m, and it rights itself with 8 sin 30° N m/rad.
   EXPECT_NEAR(std::get<double>(reduced.load_torque), -6.92820323, 1e-8);

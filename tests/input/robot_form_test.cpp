@@ -48,9 +48,7 @@ TEST(RobotForm, IsATorqueControlledJointWithItsGains) {
   EXPECT_EQ(reduced.load.inertia, 0.4);
   EXPECT_EQ(reduced.load.friction.viscous, 0.0);
   EXPECT_DOUBLE_EQ(reduced.backlash, 0.0043633231299858239);
-  const auto& gains = std::get<drive::ProportionalIntegralDerivative>(reduced.controller);
-  EXPECT_EQ(gains.proportional, 100.0);
-  EXPECT_EQ(gains.derivative, 2.0);
+  EXPECT_THAT(reduced.controller.direct, testing::ElementsAre(100.0, -100.0, -2.0));
   EXPECT_EQ(reduced.sampling->period, 0.001);
   EXPECT_FALSE(reduced.sampling->speed_by_differences);  // MuJoCo's speeds are exact
 }
@@ -74,7 +72,7 @@ TEST(RobotForm, OtherSectionsAddToIt) {
                                                               {"controller.proportional", "50"},
                                                               {"sampling.period", "2 ms"}}));
   EXPECT_DOUBLE_EQ(set.motor.inertia, 0.003);
-  EXPECT_EQ(std::get<drive::ProportionalIntegralDerivative>(set.controller).proportional, 50.0);
+  EXPECT_EQ(set.controller.direct[0], 50.0);
   EXPECT_EQ(set.sampling->period, 0.002);
 }
 

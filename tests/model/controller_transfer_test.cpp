@@ -6,6 +6,8 @@
 #include <complex>
 #include <random>
 
+#include "controllers.hpp"
+#include "gearlash/drive.hpp"
 #include "model/rational_function.hpp"
 
 namespace gearlash::drive::controller_transfer_test {
@@ -69,8 +71,9 @@ void expect_same(const LinearController& controller, Complex s) {
   }
 }
 
-void expect_transfer(const Controller& controller, Complex s, Complex of_error, Complex of_speed) {
-  const auto found = direct_transfer(linear_controller(controller), s);
+void expect_transfer(const LinearController& controller, Complex s, Complex of_error,
+                     Complex of_speed) {
+  const auto found = direct_transfer(controller, s);
   const double size = std::abs(of_error) + std::abs(of_speed);
   EXPECT_LT(std::abs(Complex(found(0)) - of_error), 1e-14 * size);
   EXPECT_LT(std::abs(Complex(found(1)) + of_error), 1e-14 * size);
@@ -79,73 +82,85 @@ void expect_transfer(const Controller& controller, Complex s, Complex of_error, 
 
 TEST(OracleController, HasTheTransferFunctionOfItsName) {
   for (const Complex s : {Complex{0.3, 1.7}, Complex{2.0, -0.4}, Complex{0.0, 11.0}}) {
-    expect_transfer(ProportionalDerivative{3.0, 0.7}, s, 3.0, 0.7);
-    const ProportionalIntegralDerivative pid{3.0, 2.0, 0.7, 0.0, 0.0};
-    expect_transfer(pid, s, 3.0 + 2.0 / s, 0.7);
-    const ProportionalIntegralDerivative filtered{3.0, 2.0, 0.7, 0.05, 0.0};
-    expect_transfer(filtered, s, 3.0 + 2.0 / s + 0.7 * s / (0.05 * s + 1.0), 0.0);
-    const Cascade cascade{4.0, 0.6, 1.5, 0.0};
-    expect_transfer(cascade, s, 4.0 * (0.6 + 1.5 / s), 0.6 + 1.5 / s);
+    expect_transfer(at_load(PID{PIDTerms::PD, 3.0, 0.0, 0.7}), s, 3.0, 0.7);
+    const PID pid{PIDTerms::PID, 3.0, 2.0, 0.7};
+    expect_transfer(at_load(pid), s, 3.0 + 2.0 / s, 0.7);
+    const PID filtered{PIDTerms::PID, 3.0, 2.0, 0.7, 0.05};
+    expect_transfer(at_load(filtered), s, 3.0 + 2.0 / s + 0.7 * s / (0.05 * s + 1.0), 0.0);
+    const CascadeController cascade{4.0, 0.6, 1.5};
+    expect_transfer(at_load(cascade), s, 4.0 * (0.6 + 1.5 / s), 0.6 + 1.5 / s);
     for (const double integral : {0.0, 1.5}) {
-      const Cascade of_filtered_speed{4.0, 0.6, integral, 0.0, 0.05};
+      const CascadeController of_filtered_speed{4.0, 0.6, integral, 0.0, 0.05};
       const Complex speed = 0.6 + integral / s;
-      expect_transfer(of_filtered_speed, s, 4.0 * speed, speed / (0.05 * s + 1.0));
+      expect_transfer(at_load(of_filtered_speed), s, 4.0 * speed, speed / (0.05 * s + 1.0));
     }
-    const LeadLag lead{2.0, 1.5, 9.0};
-    expect_transfer(lead, s, 2.0 * (s / 1.5 + 1.0) / (s / 9.0 + 1.0), 0.0);
-    const ErrorTransfer any{{{0.0, 2.0, 1.0, 3.0}, {0.5, 4.0, 1.0, 7.0}}};
+    const LeadLagController lead{2.0, 1.5, 9.0};
+    expect_transfer(at_load(lead), s, 2.0 * (s / 1.5 + 1.0) / (s / 9.0 + 1.0), 0.0);
+    const TransferFunctionController any{1.0, {0.0, 2.0, 1.0, 3.0}, {0.5, 4.0, 1.0, 7.0}};
     const Complex exact = (2.0 * s * s + s + 3.0) / (0.5 * s * s * s + 4.0 * s * s + s + 7.0);
-    expect_transfer(any, s, exact, 0.0);
-    const ErrorTransfer biproper{{{2.0, 1.0, 3.0}, {4.0, 1.0, 7.0}}};
-    expect_transfer(biproper, s, (2.0 * s * s + s + 3.0) / (4.0 * s * s + s + 7.0), 0.0);
+    expect_transfer(at_load(any), s, exact, 0.0);
+    const TransferFunctionController biproper{1.0, {2.0, 1.0, 3.0}, {4.0, 1.0, 7.0}};
+    expect_transfer(at_load(biproper), s, (2.0 * s * s + s + 3.0) / (4.0 * s * s + s + 7.0), 0.0);
   }
 }
 
 TEST(EdgeController, AnImproperTransferFunctionIsRefused) {
-  const ErrorTransfer improper{{{1.0, 0.0, 0.0}, {1.0, 1.0}}};
-  const auto found = faults(Controller(improper));
+  Drive drive;
+  drive.motor.inertia = drive.load.inertia = drive.gearbox.backlash = 1.0;
+  drive.controller.law = TransferFunctionController{1.0, {1.0, 0.0, 0.0}, {1.0, 1.0}};
+  const auto found = faults(drive);
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].path, "controller.numerator");
-  EXPECT_EQ(faults(Controller(LeadLag{1.0, 0.0, -1.0})).size(), 2U);
+  EXPECT_EQ(found[0].path, "controller.num");
+  drive.controller.law = LeadLagController{1.0, 0.0, -1.0};
+  EXPECT_EQ(faults(drive).size(), 2U);
 }
 
 TEST(IntegralAction, IsAPoleAtZeroThatThePositionMoves) {
-  for (const Controller& with : std::vector<Controller>{
-           ProportionalIntegralDerivative{1.0, 0.1, 0.2, 0.05},
-           Cascade{.position = 3.0, .speed = 1.0, .speed_integral = 2.0},
-           ErrorTransfer{{{1.0, 2.0}, {1.0, 3.0, 0.0}}},
-           SampledTransfer{.numerator = {1.0, -0.9}, .denominator = {1.0, -1.0}},
+  for (const LinearController& with : std::vector<LinearController>{
+           at_load(PID{PIDTerms::PID, 1.0, 0.1, 0.2, 0.05}),
+           at_load(CascadeController{.position = 3.0, .speed = 1.0, .speed_integral = 2.0}),
+           at_load(TransferFunctionController{1.0, {1.0, 2.0}, {1.0, 3.0, 0.0}}),
+           at_load(TransferFunctionController{.gain = 1.0,
+           .numerator = {1.0, -0.9},
+           .denominator = {1.0, -1.0},
+           .is_sampled = true}),
            // 0 and −2, turned so that no number is 0
            LinearController{.state_matrix = {{-1.0, 1.0}, {1.0, -1.0}},
            .input_matrix = {{1.0, -1.0, 0.0}, {0.5, -0.5, 0.0}},
            .output = {1.0, 0.0}}}) {
-    EXPECT_TRUE(integrates(with)) << with.index();
+    EXPECT_TRUE(integrates(with)) << with.order();
   }
-  for (const Controller& without : std::vector<Controller>{
-           ProportionalDerivative{1.0, 0.1}, ProportionalIntegralDerivative{1.0, 0.0, 0.2, 0.05},
-           Cascade{.position = 3.0, .speed = 1.0}, LeadLag{1.0, 2.0, 5.0},
-           ErrorTransfer{{{1.0, 2.0}, {1.0, 3.0, 1e-3}}},
-           SampledTransfer{.numerator = {1.0, -0.9}, .denominator = {1.0, -0.999}},
+  for (const LinearController& without : std::vector<LinearController>{
+           at_load(PID{PIDTerms::PD, 1.0, 0.0, 0.1}),
+           at_load(PID{PIDTerms::PID, 1.0, 0.0, 0.2, 0.05}),
+           at_load(CascadeController{.position = 3.0, .speed = 1.0}),
+           at_load(LeadLagController{1.0, 2.0, 5.0}),
+           at_load(TransferFunctionController{1.0, {1.0, 2.0}, {1.0, 3.0, 1e-3}}),
+           at_load(TransferFunctionController{.gain = 1.0,
+           .numerator = {1.0, -0.9},
+           .denominator = {1.0, -0.999},
+           .is_sampled = true}),
            // an integral of the speed alone, which is 0 where the position stands
            LinearController{
                .state_matrix = {{0.0}}, .input_matrix = {{0.0, 0.0, 1.0}}, .output = {1.0}}}) {
-    EXPECT_FALSE(integrates(without)) << without.index();
+    EXPECT_FALSE(integrates(without)) << without.order();
   }
 }
 
 TEST(OracleControllerTransfer, IsThatOfTheStateSpace) {
-  const std::vector<Controller> controllers = {
-      ProportionalDerivative{3.0, 0.7},
-      ProportionalIntegralDerivative{.proportional = 3.0, .integral = 2.0, .derivative = 0.7},
-      ProportionalIntegralDerivative{3.0, 2.0, 0.7, 0.05, 0.0},
-      ProportionalIntegralDerivative{3.0, 2.0, 0.7, 1e-4, 0.1, true},
-      Cascade{4.0, 0.6, 1.5, 0.2},
-      Cascade{4.0, 0.6, 1.5, 0.2, 0.005},
-      LeadLag{2.0, 1.5, 9.0},
-      ErrorTransfer{{{0.5, 2.0, 1.0, 3.0, 8.0, 1.0}, {0.5, 4.0, 1.0, 7.0, 1.0, 2.0, 3.0}}}};
-  for (const Controller& controller : controllers) {
+  const std::vector<LinearController> controllers = {
+      at_load(PID{PIDTerms::PD, 3.0, 0.0, 0.7}),
+      at_load(PID{.terms = PIDTerms::PID, .proportional = 3.0, .integral = 2.0, .derivative = 0.7}),
+      at_load(PID{PIDTerms::PID, 3.0, 2.0, 0.7, 0.05, 0.0}),
+      at_load(PID{PIDTerms::PID, 3.0, 2.0, 0.7, 1e-4, 0.1, true}),
+      at_load(CascadeController{4.0, 0.6, 1.5, 0.2}),
+      at_load(CascadeController{4.0, 0.6, 1.5, 0.2, 0.005}),
+      at_load(LeadLagController{2.0, 1.5, 9.0}),
+      at_load(TransferFunctionController{
+          1.0, {0.5, 2.0, 1.0, 3.0, 8.0, 1.0}, {0.5, 4.0, 1.0, 7.0, 1.0, 2.0, 3.0}})};
+  for (const LinearController& controller : controllers) {
     for (const Complex s : {Complex{0.0, 0.03}, Complex{0.3, 1.7}, Complex{0.0, 900.0}}) {
-      expect_same(linear_controller(controller), s);
+      expect_same(controller, s);
     }
   }
 }

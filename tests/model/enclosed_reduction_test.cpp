@@ -16,10 +16,11 @@
 #include "base/drive_count.hpp"
 #include "base/number.hpp"
 #include "base/seeded_draws.hpp"
-#include "model/controller_forms.hpp"
+#include "controllers.hpp"
 #include "model/enclosed_drive.hpp"
 #include "model/number_members.hpp"
 #include "model/reduction.hpp"
+#include "model/sampled_controller.hpp"
 
 namespace gearlash::enclosed_reduction_test {
 namespace {
@@ -139,7 +140,9 @@ void draw_law(SeededDraws& draws, Drive& drive, double filter) {
                             draws.happens(0.7) ? filter : 0.0};
   } else if (kind < 4.0) {
     const double pole = draws.happens(0.5) ? 1.0 / filter : draws.log_uniform(0.1, 1e3);
-    law = LeadLagController{draws.log_uniform(0.1, 100.0), pole * nearly_one(draws), pole};
+    const double zero = pole * nearly_one(draws);  // equal doubles may have been other numbers
+    law = LeadLagController{draws.log_uniform(0.1, 100.0),
+                            zero == pole ? std::nextafter(pole, infinity) : zero, pole};
   } else if (kind < 5.0) {
     law = drawn_transfer(draws, drive.sampling && draws.happens(0.3));
   } else if (kind < 6.0) {
@@ -278,10 +281,10 @@ std::vector<Hold> holds_of(const Digits& period, const Digits& delay) {
 }
 
 /// Each true hold is among those enclosed, and none of the others needs to last.
-void compare_holds(const drive::SamplingOf<Digits>& exact,
+void compare_holds(const Digits& period, const Digits& delay,
                    const std::vector<HeldTorqueOf<Interval>>& enclosed, const std::string& what,
                    Comparison& compare) {
-  const std::vector<Hold> holds = holds_of(exact.period, exact.delay);
+  const std::vector<Hold> holds = holds_of(period, delay);
   std::size_t found = 0;
   for (const HeldTorqueOf<Interval>& one : enclosed) {
     const auto hold =
@@ -295,12 +298,6 @@ void compare_holds(const drive::SamplingOf<Digits>& exact,
     compare("held torque", hold->until, one.until);
   }
   EXPECT_EQ(found, holds.size()) << what;
-}
-
-drive::LinearControllerOf<Digits> controller_of(const drive::ReducedDriveOf<Digits>& drive) {
-  return drive.sampling
-             ? drive::forms::sampled_controller<Digits>(drive.controller, *drive.sampling)
-             : drive::forms::linear_controller<Digits>(drive.controller);
 }
 
 TEST(PropertyEnclosedReduction, ContainsSixtyDigitsWhereSumsCancel) {
@@ -319,9 +316,6 @@ TEST(PropertyEnclosedReduction, ContainsSixtyDigitsWhereSumsCancel) {
     const CourseOf<Digits> course = Reduction<Written>(drive, written).course();
     // A share of friction above 1 is none of a drive.
     exact.motor.friction.viscous = std::max(exact.motor.friction.viscous, Digits(0));
-    if (auto* lead_lag = std::get_if<drive::LeadLagOf<Digits>>(&exact.controller)) {
-      lead_lag->pole *= 1 + Digits(1e-30);  // equal doubles may have been other numbers
-    }
     if (std::holds_alternative<double>(enclosed.form().reference)) exact.feedforward = {};
     exact.reference = enclosed.form().reference;
     exact.load_torque = enclosed.form().load_torque;
@@ -332,15 +326,18 @@ TEST(PropertyEnclosedReduction, ContainsSixtyDigitsWhereSumsCancel) {
     compare.all("other", exact, enclosed.numbers());
     const std::string kind = exact.sampling ? "sampled" : "continuous";
     if (exact.sampling) {
+      const Digits period = written(exact.sampling->period);
+      Digits delay = written(exact.sampling->delay);
+      exact.controller = drive::forms::sampled(exact.controller, period, exact.sampling->method);
       const auto& held = enclosed.held_torques();
       const bool is_multiple = held.size() == 1 && drive.sampling->delay > 0.0;
       if (is_multiple) {
         ++assumed;
-        exact.sampling->delay = exact.sampling->period * static_cast<double>(held.front().age);
+        delay = period * static_cast<double>(held.front().age);
       }
-      compare_holds(*exact.sampling, held, "drive " + std::to_string(i), compare);
+      compare_holds(period, delay, held, "drive " + std::to_string(i), compare);
     }
-    compare.controller(kind, controller_of(exact), enclosed.controller());
+    compare.controller(kind, exact.controller, enclosed.controller());
   }
   compare.print();
   std::cout << assumed << " delays written as a multiple of the period\n";
@@ -365,11 +362,13 @@ TEST(EnclosedReduction, TustinsFilterIsThatOfTheBook) {
     const double period = 2.0 * filter * (1.0 + closeness);
     const double derivative = 0.7;
     const double proportional = -2.0 * derivative / (2.0 * filter + period);
-    const auto found = drive::sampled_controller(
-        drive::ProportionalIntegralDerivativeOf<Interval>{.proportional = datum(proportional),
-                                                          .derivative = datum(derivative),
-                                                          .filter = datum(filter)},
-        {.period = datum(period), .delay = 0.0});
+    const auto found =
+        drive::sampled_controller(drive::forms::linear(PID{.terms = PIDTerms::PD,
+                                                           .proportional = proportional,
+                                                           .derivative = derivative,
+                                                           .filter = filter},
+                                                       datum, Interval(1.0)),
+                                  datum(period), Discretization::tustin);
     const Digits F = filter;
     const Digits T = period;
     ASSERT_EQ(found.order(), 1U);
@@ -388,24 +387,23 @@ TEST(EnclosedReduction, LeadLagIsItsPartialFraction) {
     const double pole = 17.0;
     const double zero = pole * (1.0 + closeness);
     const auto found =
-        drive::linear_controller(drive::LeadLagOf<Interval>{datum(3.0), datum(zero), datum(pole)});
+        drive::forms::linear(LeadLagController{3.0, zero, pole}, datum, Interval(1.0));
     ASSERT_EQ(found.order(), 1U) << "the decimals may differ";
     const Digits ratio = Digits(pole) / Digits(zero);
     expect_contains(found.state_matrix[0][0], -pole, "pole");
     expect_contains(found.direct[0], 3 * ratio, "at once");
     expect_contains(found.output[0], 3 * (1 - ratio) * pole, "through the state");
   }
-  EXPECT_EQ(drive::linear_controller(drive::Controller(drive::LeadLag{3.0, 17.0, 17.0})).order(),
-            0U);
+  EXPECT_EQ(at_load(LeadLagController{3.0, 17.0, 17.0}).order(), 0U);
 }
 
 /// p + i/s by backward differences: at once p + i T.
 TEST(EnclosedReduction, BackwardIntegralAddsItsPeriodAtOnce) {
   const AsWritten datum;
   const auto found = drive::sampled_controller(
-      drive::ProportionalIntegralDerivativeOf<Interval>{.proportional = datum(-0.02),
-                                                        .integral = datum(20.0)},
-      {.period = datum(0.001), .delay = 0.0, .method = drive::Discretization::backward});
+      drive::forms::linear(PID{.terms = PIDTerms::PI, .proportional = -0.02, .integral = 20.0},
+                           datum, Interval(1.0)),
+      datum(0.001), Discretization::backward);
   expect_contains(found.direct[0], Digits(-0.02) + Digits(20.0) * Digits(0.001), "at once");
   expect_contains(found.state_matrix[0][0], 1, "integrator");
 }

@@ -124,9 +124,8 @@ TEST(OracleFirmware, ODrive) {
   EXPECT_EQ(conversion.controller.shaft, GainShaft::motor);
   EXPECT_EQ(drive.sampling->period, 125e-6);
   // One turn of the motor is answered by 20 · 0.16 N m.
-  const auto reduced = std::get<drive::Cascade>(reduce(drive).controller);
   const double turn_of_motor_at_load = turn / 8.0;
-  EXPECT_NEAR(reduced.position * reduced.speed * turn_of_motor_at_load, 8.0 * 20.0 * 0.16, 1e-12);
+  EXPECT_NEAR(reduce(drive).controller.direct[0] * turn_of_motor_at_load, 8.0 * 20.0 * 0.16, 1e-12);
   drive.sensor.position = SensorPlace::both;
   EXPECT_EQ(converted(drive).controller.shaft, GainShaft::mixed);
 }
@@ -187,7 +186,7 @@ TEST(OracleFirmware, SimpleFOCWithItsFilter) {
     set(drive, "controller.PID_velocity_I", integral);
     set(drive, "controller.LPF_velocity_Tf", filter);
     EXPECT_TRUE(faults(drive).empty());
-    const auto linear = drive::linear_controller(reduce(drive).controller);
+    const auto linear = reduce(drive).controller;
     using Complex = std::complex<double>;
     const Complex s(0.0, 37.0);
     const Complex pi_part = proportional + integral / s;
@@ -282,8 +281,8 @@ TEST(Firmware, IsTheDriveTypedInSIUnits) {
   const Drive registers = dynamixel(800.0, 50.0, 200.0);
   const Drive typed = without_registers(registers);
   EXPECT_FALSE(typed.controller.firmware);
-  const auto one = drive::linear_controller(reduce(registers).controller);
-  const auto other = drive::linear_controller(reduce(typed).controller);
+  const auto one = reduce(registers).controller;
+  const auto other = reduce(typed).controller;
   EXPECT_EQ(one.direct, other.direct);
   EXPECT_EQ(one.output, other.output);
   EXPECT_EQ(one.input_matrix, other.input_matrix);

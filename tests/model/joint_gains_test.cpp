@@ -35,10 +35,8 @@ TEST(JointGains, AreTorqueAtTheLoadPerAngleOfTheLoad) {
   EXPECT_EQ(drive.controller.shaft, GainShaft::mixed);  // unless another is named
   choose_shaft(drive, 0);
   const drive::ReducedDrive reduced = reduce(drive);
-  const auto& at_load = std::get<drive::ProportionalIntegralDerivative>(reduced.controller);
-  EXPECT_EQ(at_load.proportional, 100.0);
-  EXPECT_EQ(at_load.integral, 30.0);
-  EXPECT_EQ(at_load.derivative, 2.0);
+  EXPECT_EQ(reduced.controller.direct, (std::vector{100.0, -100.0, -2.0}));
+  EXPECT_EQ(reduced.controller.input_matrix[0][0], 30.0);
   // 100 N m/rad at the joint is 2 N m at the motor per rad of the joint, 0.04 N m per rad of the
   // motor.
   Drive mixed = joint({.proportional = 2.0});

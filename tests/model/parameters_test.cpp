@@ -183,11 +183,9 @@ TEST(ReducedDrives, NumbersAreReferredToTheLoadByTheGearRatio) {
   EXPECT_DOUBLE_EQ(reduced.torque_limit, 0.2 * 50.0);
   Drive at_motor = joint();
   at_motor.controller.shaft = GainShaft::motor;
-  const auto& pid = std::get<drive::ProportionalIntegralDerivative>(reduced.controller);
   const drive::ReducedDrive per_motor = reduce(at_motor);
-  const auto& of_motor = std::get<drive::ProportionalIntegralDerivative>(per_motor.controller);
-  EXPECT_DOUBLE_EQ(pid.proportional, 25.0);
-  EXPECT_DOUBLE_EQ(of_motor.proportional, 1250.0);
+  EXPECT_DOUBLE_EQ(reduced.controller.direct[0], 225.0);  // proportional + derivative/filter
+  EXPECT_DOUBLE_EQ(per_motor.controller.direct[0], 11250.0);
 }
 
 /// Thresholds and additions are those of the gains' shaft, a backlash that of the load's.
@@ -217,9 +215,7 @@ TEST(ReducedDrives, DeadBandsAndCompensationsAreReferredToTheLoad) {
     EXPECT_EQ(reduced.feedforward.half_gap, 0.0015);
     Drive of_relay = drive;
     of_relay.controller.law = RelayController{.level = 0.3};
-    const double relay =
-        std::get<drive::ProportionalDerivative>(reduce(of_relay).controller).proportional;
-    EXPECT_DOUBLE_EQ(relay, 0.3 * torque);
+    EXPECT_DOUBLE_EQ(reduce(of_relay).controller.direct[0], 0.3 * torque);
   }
 }
 

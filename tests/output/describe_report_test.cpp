@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "controllers.hpp"
+
 namespace gearlash::describe_report_test {
 namespace {
 
@@ -18,7 +20,7 @@ drive::ReducedDrive type_one_servo() {
   drive.motor = {0.25, {.viscous = 0.75}};
   drive.load = {0.75, {.viscous = 0.25}};
   drive.backlash = 2.0;
-  drive.controller = drive::ProportionalDerivative{.proportional = 5.0};
+  drive.controller = at_load(PID{.proportional = 5.0});
   return drive;
 }
 
@@ -60,7 +62,7 @@ TEST(DescribeReport, APredictionWithoutAnExactCycleIsSaidToBeWrong) {
 TEST(DescribeReport, JsonHasEveryNumber) {
   drive::ReducedDrive drive = type_one_servo();
   drive.torque_limit = 3.0;
-  drive.sampling = drive::Sampling{.period = 0.2, .delay = 0.05};
+  drive.sampling = Sampling{.period = 0.2, .delay = 0.05};
   const DescribeReport report = report_of(drive);
   const auto json = nlohmann::json::parse(describe_json(report));
   ASSERT_EQ(json["analyses"].size(), 3U);
@@ -106,7 +108,7 @@ TEST(EdgeDescribeReport, NormalisedTimesAreTold) {
 
 TEST(EdgeDescribeReport, WhatIsOutsideOfTheLoopHasNoCycle) {
   drive::ReducedDrive drive = type_one_servo();
-  drive.controller = drive::ProportionalDerivative{};
+  drive.controller = at_load(PID{});
   EXPECT_THAT(describe_text(report_of(drive)), HasSubstr("no cycle: nothing is fed back"));
 }
 

@@ -7,6 +7,7 @@
 #include <regex>
 #include <string>
 
+#include "controllers.hpp"
 #include "output/report_units.hpp"
 
 namespace gearlash::nyquist_picture_test {
@@ -23,7 +24,7 @@ drive::ReducedDrive all_parts() {
   drive.load = {0.75, {.viscous = 0.25}};
   drive.backlash = 0.02;
   drive.contact = drive::CompliantContact{.stiffness = 300.0, .damping = 0.5};
-  drive.controller = drive::ProportionalIntegralDerivative{.proportional = 9.0, .integral = 12.0};
+  drive.controller = at_load(PID{.terms = PIDTerms::PID, .proportional = 9.0, .integral = 12.0});
   drive.torque_limit = 2.0;
   return drive;
 }
@@ -95,7 +96,7 @@ TEST(NyquistPicture, RealAndImaginaryPartsHaveTheSameScale) {
   drive.motor = {0.25, {.viscous = 0.75}};
   drive.load = {0.75, {.viscous = 0.25}};
   drive.backlash = 2.0;
-  drive.controller = drive::ProportionalDerivative{.proportional = 5.0};
+  drive.controller = at_load(PID{.proportional = 5.0});
   const auto numbers =
       numbers_of(draw_nyquist(picture_of(drive, DescribedPart::gap_load_held), PictureFormat::svg));
   // The imaginary axis' numbers stand at one x and come first, then the real axis' at one y.
@@ -116,7 +117,7 @@ TEST(NyquistPicture, RealAndImaginaryPartsHaveTheSameScale) {
 
 TEST(EdgeNyquistPicture, WithoutCycleOrExactOneThereAreTheCurves) {
   drive::ReducedDrive drive = all_parts();
-  drive.controller = drive::ProportionalDerivative{.proportional = 0.5, .derivative = 2.0};
+  drive.controller = at_load(PID{.terms = PIDTerms::PD, .proportional = 0.5, .derivative = 2.0});
   for (const auto part : {DescribedPart::gap_load_held, DescribedPart::elastic_gap,
                           DescribedPart::torque_limit, DescribedPart::coulomb_friction}) {
     const std::string svg = draw_nyquist(picture_of(drive, part), PictureFormat::svg);

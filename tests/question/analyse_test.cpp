@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "controllers.hpp"
 #include "model/reduced_drive.hpp"
 #include "question/analyse.hpp"
 #include "question/contradictions.hpp"
@@ -187,7 +188,7 @@ drive::ReducedDrive inverted_load(double load_torque) {
   drive.motor = {.inertia = 1.0, .friction = {.viscous = 1.0}};
   drive.load = {.inertia = 1.0, .friction = {.viscous = 1.0}};
   drive.backlash = 0.02;
-  drive.controller = drive::ProportionalDerivative{.proportional = 30.0, .derivative = 1.0};
+  drive.controller = at_load(PID{.terms = PIDTerms::PD, .proportional = 30.0, .derivative = 1.0});
   drive.torque_limit = 2.0;
   drive.gravity.stiffness = -20.0;
   drive.load_torque = load_torque;

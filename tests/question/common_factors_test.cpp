@@ -108,8 +108,7 @@ TEST(OracleCommonFactors, StandInBothPolynomials) {
     const auto reduced = reduce(with_common_factors(lead_drive(draws), draws));
     const LoopPolynomials loop = loop_polynomials(linear_drive(EnclosedDrive(reduced)));
     const RationalFunction exact =
-        exact_transfer(drive::linear_controller(reduced.controller), drive::TorqueGiven::as_asked)
-            .position;
+        exact_transfer(reduced.controller, drive::TorqueGiven::as_asked).position;
     ASSERT_LE(exact.denominator().degree(), 1U);  // the factors cancelled
     const auto& numerator = exact.numerator().data();
     const auto& denominator = exact.denominator().data();

@@ -5,6 +5,7 @@
 #include <complex>
 
 #include "base/seeded_draws.hpp"
+#include "controllers.hpp"
 #include "gearlash/analyse.hpp"
 #include "model/reduced_drive.hpp"
 #include "numeric/linear_algebra.hpp"
@@ -21,7 +22,7 @@ ReducedDrive weighed_servo(double friction, double weight) {
   drive.motor = {0.3, {.viscous = 0.4 * friction}};
   drive.load = {0.7, {.viscous = 0.6 * friction, .coulomb = 0.2, .breakaway = 0.2}};
   drive.backlash = 0.01;
-  drive.controller = drive::ProportionalDerivative{.proportional = 9.0};
+  drive.controller = at_load(PID{.proportional = 9.0});
   drive.gravity = {.stiffness = weight};
   return drive;
 }

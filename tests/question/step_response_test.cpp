@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/stopping.hpp"
+#include "controllers.hpp"
 
 namespace gearlash::drive::step_response_test {
 namespace {
@@ -18,7 +19,7 @@ ReducedDrive second_order(double damping) {
   drive.load.inertia = 1e-9;
   drive.backlash = 1e-12;
   drive.sensing = {.load_share_of_position = 0.0, .load_share_of_speed = 0.0};
-  drive.controller = ProportionalDerivative{1.0, 0.0};
+  drive.controller = at_load(PID{.proportional = 1.0});
   return drive;
 }
 
@@ -87,7 +88,7 @@ TEST(StepResponse, WhatHuntsBeyondTheBandDoesNotSettle) {
   drive.motor = {1.0 / 3.0, {.viscous = 0.342}};
   drive.load = {2.0 / 3.0, {.viscous = 0.038}};
   drive.backlash = 0.3;
-  drive.controller = ProportionalDerivative{1.0, 0.0};
+  drive.controller = at_load(PID{.proportional = 1.0});
   for (double until = 60.0; until < 66.5; until += 0.5) {
     const StepResponse response = step_response(drive, 3.0, until);
     EXPECT_NEAR(response.ripple, 0.2416, 1e-3);  // of which the band has 0.15

@@ -8,7 +8,6 @@
 
 #include "gearlash/design.hpp"
 #include "gearlash/parameter.hpp"
-#include "input/written_texts.hpp"
 #include "model/parameters.hpp"
 #include "output/drive_text.hpp"
 #include "question/final_servo.hpp"
@@ -106,7 +105,7 @@ Json absent_sections(const Drive& drive) {
 }  // namespace
 
 ShownUnits::ShownUnits(const DriveText& text, const WrittenDrive& written)
-    : written_(written), texts_(texts_written_in(text.toml)) {
+    : written_(written), texts_(written.texts) {
   for (const Setting& setting : text.settings) texts_[setting.path] = setting.text;
 }
 

@@ -8,8 +8,7 @@ using hybrid::Vector;
 
 DriveForms::DriveForms(const ReducedDrive& drive)
     : drive_(drive),
-      controller_(drive.sampling ? sampled_controller(drive.controller, *drive.sampling)
-                                 : linear_controller(drive.controller)),
+      controller_(running_controller(drive)),
       is_rigid_(std::holds_alternative<RigidContact>(drive.contact)),
       reference_generator_(generator_of(drive.reference)),
       load_generator_(generator_of(drive.load_torque)),

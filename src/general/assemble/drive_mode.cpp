@@ -133,7 +133,7 @@ bool remembers_worked_out(const ReducedDrive& drive) {
   if (!drive.sampling || !std::isfinite(drive.torque_limit)) return false;
   const SplitDelay delay = split_delay(*drive.sampling);
   const bool is_late = delay.whole_periods > 0 || delay.rest == drive.sampling->period;
-  return is_late && !linear_controller(drive.controller).anti_windup.empty();
+  return is_late && !drive.controller.anti_windup.empty();
 }
 
 std::string text_of(const DriveMode& mode) {

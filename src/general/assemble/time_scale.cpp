@@ -8,87 +8,42 @@
 #include <vector>
 
 #include "base/special_numbers.hpp"
-#include "general/assemble/drive_system.hpp"
+#include "model/stepped_drive.hpp"
 #include "numeric/linear_algebra.hpp"
 
 namespace gearlash::drive {
 namespace {
 
-using hybrid::Matrix;
-
 constexpr double turn = 2.0 * std::numbers::pi;
 
 /// A relay by its describing function at an amplitude of its threshold, or of half the gap.
-Controller linear_relay(const ReducedDrive& drive) {
-  const auto& relay = std::get<ProportionalDerivative>(drive.controller);
-  const double gain = 4.0 / std::numbers::pi * relay.proportional;
+LinearController linear_relay(const ReducedDrive& drive) {
+  const double gain = 4.0 / std::numbers::pi * drive.controller.direct[0];
   if (drive.error_shape.is_of_speed) {
     constexpr double some = 1.0;  // rad/s, for a relay without thresholds
     const double speed = drive.error_shape.begins > 0.0 ? drive.error_shape.begins : some;
-    return ProportionalDerivative{.derivative = gain / speed};
+    return {.direct = {0.0, 0.0, -gain / speed}};
   }
   const double amplitude = std::max(drive.error_shape.begins, 0.5 * drive.backlash);
-  return ProportionalDerivative{.proportional = amplitude > 0.0 ? gain / amplitude : gain};
-}
-
-/// The drive without its nonlinearities other than the gap.
-ReducedDrive linear_drive(ReducedDrive drive) {
-  if (drive.error_shape.is_relay()) drive.controller = linear_relay(drive);
-  drive.error_shape = {};
-  drive.feedforward = {};
-  drive.winding.torque_limit = std::numeric_limits<double>::infinity();
-  drive.reference = 0.0;
-  drive.load_torque = 0.0;
-  drive.sensing.resolution = 0.0;
-  drive.sensing.resolution_of_speed = 0.0;
-  drive.torque_limit = std::numeric_limits<double>::infinity();
-  for (ShaftFriction* friction : {&drive.motor.friction, &drive.load.friction}) {
-    friction->coulomb = friction->breakaway = 0.0;
-  }
-  return drive;
-}
-
-/// Reduces a matrix of all numbers to shafts that move as one.
-Matrix of_shafts_as_one(const Matrix& matrix) {
-  const Eigen::Index left = matrix.rows() - load_position;
-  Matrix as_one = matrix.bottomRightCorner(left, left);
-  for (const auto& [motor, load] :
-       {std::pair{motor_position, load_position}, std::pair{motor_speed, load_speed}}) {
-    as_one.col(load - load_position) += matrix.col(motor).tail(left);
-  }
-  return as_one;
+  const double stiffness = amplitude > 0.0 ? gain / amplitude : gain;
+  return {.direct = {stiffness, -stiffness, 0.0}};
 }
 
 /// With those that are 0.
-std::vector<std::complex<double>> all_eigenvalues(const ReducedDrive& drive) {
-  const ReducedDrive linear = linear_drive(drive);
-  const DriveSystem built = drive_system(linear);
-  const hybrid::AffineMode& mode =
-      built.system.mode(built.modes.index_of({closed_contact(linear)}));
-  const bool is_rigid = std::holds_alternative<RigidContact>(linear.contact);
-  const auto reduced = [&](const Matrix& matrix) {
-    return is_rigid ? of_shafts_as_one(matrix) : matrix;
-  };
-  const Matrix flow = reduced(mode.flow.matrix);
+std::vector<std::complex<double>> all_eigenvalues(ReducedDrive drive) {
+  if (drive.error_shape.is_relay()) drive.controller = linear_relay(drive);
+  const LinearDrive<double> linear = linear_drive(drive);
   std::vector<std::complex<double>> values;
-  if (!linear.sampling) {
-    const Eigen::VectorXcd all = eigenvalues(flow);
+  if (linear.holds.empty()) {
+    const Eigen::VectorXcd all = eigenvalues(balanced(flow_of(linear.loop())));
     values.assign(all.begin(), all.end());
     return values;
   }
-  const double period = linear.sampling->period;
-  const double delay = split_delay(*linear.sampling).rest;
-  Matrix map = reduced(mode.timed.front().reset.matrix);
-  if (mode.timed.size() > 1) {
-    map = exponential(flow * (period - delay)) * reduced(mode.timed.back().reset.matrix) *
-          exponential(flow * delay) * map;
-  } else {
-    map = exponential(flow * period) * map;
-  }
-  const Eigen::VectorXcd all = eigenvalues(map);
+  const Eigen::VectorXcd all =
+      eigenvalues(balanced(flow_of(stepped_drive(linear, TorqueInput::requested).step)));
   for (const std::complex<double>& value : all) {
     constexpr double dead_beat = 1e-12;  // decays below rounding within one sample
-    if (std::abs(value) > dead_beat) values.push_back(std::log(value) / period);
+    if (std::abs(value) > dead_beat) values.push_back(std::log(value) / linear.period);
   }
   return values;
 }

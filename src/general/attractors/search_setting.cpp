@@ -109,10 +109,7 @@ void look(SearchSetting& setting) {
 /// Direct gain from position to torque, N m/rad; 0 of a relay, whose torque does not grow with it.
 double direct_stiffness(const ReducedDrive& drive) {
   if (drive.error_shape.is_relay()) return 0.0;
-  const LinearController controller = drive.sampling
-                                          ? sampled_controller(drive.controller, *drive.sampling)
-                                          : linear_controller(drive.controller);
-  return std::abs(controller.direct[1]);
+  return std::abs(running_controller(drive).direct[1]);
 }
 
 /// Of a settled signal that is no ramp.

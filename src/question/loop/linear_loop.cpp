@@ -8,11 +8,10 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 #include "general/assemble/time_scale.hpp"
-#include "model/linear_drive.hpp"
+#include "model/stepped_drive.hpp"
 #include "numeric/linear_algebra.hpp"
 #include "question/loop/ceiling/loop_gain.hpp"
 
@@ -20,60 +19,8 @@ namespace gearlash::drive {
 namespace {
 
 using Complex = std::complex<double>;
-using Matrix = Eigen::MatrixXcd;
-using Vector = Eigen::VectorXcd;
-using Row = Eigen::RowVectorXcd;
-
-Vector vector_of(const std::vector<double>& numbers) {
-  return Eigen::Map<const Eigen::VectorXd>(numbers.data(),
-                                           static_cast<Eigen::Index>(numbers.size()));
-}
 
 // ---- the response -------------------------------------------------------------------------------
-
-/// A torque's effect on the plant's states, some ticks later.
-struct DelayedTorque {
-  Vector effect;
-  std::size_t age = 0;
-};
-
-/// (advance − flow) x = Σ effect advance^−age τ, where `advance` is jω, or e^{jωT} from tick to
-/// tick.
-struct PlantMotion {
-  Matrix flow;
-  std::vector<DelayedTorque> torques;
-};
-
-/// Over a time under one torque, e^{A t} and ∫e^{A s} ds b: the torque is a state that stands.
-struct Passage {
-  Eigen::MatrixXd flow;
-  Eigen::VectorXd of_torque;
-};
-Passage passage(const Eigen::MatrixXd& flow, const Eigen::VectorXd& of_torque, double time) {
-  const Eigen::Index size = flow.rows();
-  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(size + 1, size + 1);
-  whole.topLeftCorner(size, size) = time * flow;
-  whole.topRightCorner(size, 1) = time * of_torque;
-  const Eigen::MatrixXd passed = exponential(whole);
-  return {passed.topLeftCorner(size, size), passed.topRightCorner(size, 1)};
-}
-
-PlantMotion motion_of(const LinearDrive<double>& drive, const LinearSystem<double>& plant) {
-  const auto size = static_cast<Eigen::Index>(plant.size());
-  Eigen::MatrixXd flow(size, size);
-  for (Eigen::Index i = 0; i < size; ++i) {
-    flow.row(i) = vector_of(plant.slopes[static_cast<std::size_t>(i)].of_state).real().transpose();
-  }
-  const Eigen::VectorXd of_torque = vector_of(plant.column(LinearInput::torque)).real();
-  if (drive.holds.empty()) return {flow, {{of_torque, 0}}};
-  PlantMotion motion{passage(flow, of_torque, drive.period).flow, {}};
-  for (const HeldTorque& held : drive.holds) {
-    const Passage during = passage(flow, of_torque, held.until - held.from);
-    const Passage after = passage(flow, of_torque, drive.period - held.until);
-    motion.torques.push_back({Vector(after.flow * during.of_torque), held.age});
-  }
-  return motion;
-}
 
 /// At one frequency.
 struct LoopResponse {
@@ -81,85 +28,54 @@ struct LoopResponse {
   Complex closed;  ///< θ_L/r
 };
 
+Eigen::RowVectorXcd row_of(const std::vector<double>& numbers) {
+  return Eigen::Map<const Eigen::RowVectorXd>(numbers.data(),
+                                              static_cast<Eigen::Index>(numbers.size()));
+}
+
+/// What the reference adds at once. Of a form `reference` is its effect together with an equal
+/// position's.
+double by_reference(const LinearForm<double>& form) {
+  return form[LinearInput::reference] - form[LinearInput::position_reading];
+}
+
+/// (advance − flow) x = inputs (τ, r), where `advance` is jω, or e^{jωT} from tick to tick.
 class LoopTransfer {
  public:
-  explicit LoopTransfer(const LinearDrive<double>& drive);
+  explicit LoopTransfer(const LinearDrive<double>& drive) : period_(drive.period) {
+    const LinearSystem<double> open =
+        drive.holds.empty() ? drive.open() : stepped_drive(drive, TorqueInput::open).step;
+    flow_ = flow_of(open);
+    inputs_.resize(flow_.rows(), 2);
+    for (Eigen::Index i = 0; i < flow_.rows(); ++i) {
+      const LinearForm<double>& slope = open.slopes[static_cast<std::size_t>(i)];
+      inputs_(i, 0) = slope[LinearInput::torque];
+      inputs_(i, 1) = by_reference(slope);
+    }
+    load_ = row_of(open.load.of_state);
+    effort_ = row_of(open.effort.of_state);
+    effort_by_reference_ = by_reference(open.effort);
+  }
 
   LoopResponse at(double frequency) const {
     const Complex advance = period_ > 0.0 ? std::polar(1.0, frequency * period_)  //
                                           : Complex{0.0, frequency};
-    const Vector states = of_torque(advance);
-    const Row controller = of_inputs(advance);
-    const Complex position = position_.dot(states);
-    const Complex speed =
-        counts_ ? (1.0 - 1.0 / advance) / period_ * counted_.dot(states) : speed_.dot(states);
-    const Complex open = -(controller[1] * position + controller[2] * speed);
-    return {open, controller[0] * load_.dot(states) / (1.0 + open)};
+    const Eigen::MatrixXcd states = solved(
+        Eigen::MatrixXcd(advance * Eigen::MatrixXcd::Identity(flow_.rows(), flow_.cols()) - flow_),
+        inputs_);
+    const Complex open = -(effort_ * states.col(0)).value();
+    const Complex requested = (effort_ * states.col(1)).value() + effort_by_reference_;
+    return {open, requested * (load_ * states.col(0)).value() / (1.0 + open)};
   }
 
  private:
-  Vector of_torque(const Complex& advance) const;
-  Row of_inputs(const Complex& advance) const;
-
-  PlantMotion motion_;
   double period_ = 0.0;  ///< s; 0 of a continuous controller
-  bool counts_ = false;  ///< the speed is a difference of positions
-  Vector load_;
-  Vector position_;
-  Vector counted_;
-  Vector speed_;
-  Matrix controller_flow_;
-  Matrix controller_inputs_;
-  Row controller_output_;
-  Row direct_;
+  Eigen::MatrixXcd flow_;
+  Eigen::MatrixXcd inputs_;
+  Eigen::RowVectorXcd load_;
+  Eigen::RowVectorXcd effort_;
+  double effort_by_reference_ = 0.0;
 };
-
-/// Of the reference, the position and the speed. The row has the sum of the first two.
-Row inputs_of(const ControllerRow<double>& row) {
-  Row inputs(3);
-  inputs << row.reference - row.position, row.position, row.speed;
-  return inputs;
-}
-
-LoopTransfer::LoopTransfer(const LinearDrive<double>& drive)
-    : period_(drive.period), counts_(drive.counts) {
-  const LinearSystem<double> plant = drive.plant();
-  motion_ = motion_of(drive, plant);
-  load_ = vector_of(plant.load.of_state);
-  position_ = vector_of(plant.position.of_state);
-  counted_ = vector_of(plant.counted.of_state);
-  speed_ = vector_of(plant.speed.of_state);
-  const auto order = static_cast<Eigen::Index>(drive.order());
-  controller_flow_.resize(order, order);
-  controller_inputs_.resize(order, 3);
-  for (Eigen::Index i = 0; i < order; ++i) {
-    const ControllerRow<double>& row = drive.controller_states[static_cast<std::size_t>(i)];
-    controller_flow_.row(i) = vector_of(row.of_state).transpose();
-    controller_inputs_.row(i) = inputs_of(row);
-  }
-  controller_output_ = vector_of(drive.torque.of_state).transpose();
-  direct_ = inputs_of(drive.torque);
-}
-
-/// (advance − flow)⁻¹ right.
-Matrix resolved(const Complex& advance, const Matrix& flow, const Matrix& right) {
-  return solved(Matrix(advance * Matrix::Identity(flow.rows(), flow.cols()) - flow), right);
-}
-
-/// The plant's states per requested torque.
-Vector LoopTransfer::of_torque(const Complex& advance) const {
-  Vector acting = Vector::Zero(motion_.flow.rows());
-  for (const DelayedTorque& torque : motion_.torques) {
-    acting += torque.effect / std::pow(advance, static_cast<int>(torque.age));
-  }
-  return resolved(advance, motion_.flow, acting);
-}
-
-/// K_r, K_y and K_v.
-Row LoopTransfer::of_inputs(const Complex& advance) const {
-  if (controller_output_.size() == 0) return direct_;
-  return direct_ + controller_output_ * resolved(advance, controller_flow_, controller_inputs_);
-}
 
 // ---- frequencies --------------------------------------------------------------------------------
 

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <random>
 
+#include "controllers.hpp"
+
 namespace gearlash::drive::linear_loop_test {
 namespace {
 
@@ -26,7 +28,7 @@ ReducedDrive rigid_drive() {
   drive.load = {0.02, {.viscous = 0.03}};
   drive.backlash = 0.01;
   drive.sensing = {.load_share_of_position = 1.0, .load_share_of_speed = 1.0};
-  drive.controller = ProportionalDerivative{2.0, 0.0};
+  drive.controller = at_load(PID{.proportional = 2.0});
   return drive;
 }
 constexpr double inertia = 0.03;
@@ -63,7 +65,7 @@ void expect_figures(const ReducedDrive& drive, const Open& open, const Closed& c
 TEST(OracleLinearLoop, IsThatOfASecondOrderServo) {
   for (const double stiffness : {0.001, 0.02, 2.0, 500.0}) {
     ReducedDrive drive = rigid_drive();
-    drive.controller = ProportionalDerivative{stiffness, 0.0};
+    drive.controller = at_load(PID{.proportional = stiffness});
     const auto open = [&](double w) { return stiffness / Complex(-inertia * w * w, friction * w); };
     const auto closed = [&](double w) { return open(w) / (1.0 + open(w)); };
     expect_figures(drive, open, closed, 1e-4, 1e4);
@@ -72,9 +74,12 @@ TEST(OracleLinearLoop, IsThatOfASecondOrderServo) {
 
 TEST(OracleLinearLoop, HasFilterWindingAndWeight) {
   ReducedDrive drive = rigid_drive();
-  const ProportionalIntegralDerivative pid{
-      .proportional = 5.0, .integral = 8.0, .derivative = 0.4, .filter = 4e-3};
-  drive.controller = pid;
+  const PID pid{.terms = PIDTerms::PID,
+                .proportional = 5.0,
+                .integral = 8.0,
+                .derivative = 0.4,
+                .filter = 4e-3};
+  drive.controller = at_load(pid);
   drive.winding = {.time_constant = 2e-3, .back_emf = 0.07};
   drive.gravity = {.torque = 0.0, .stiffness = 0.6, .angle = 0.0};
   const auto open = [&](double w) {
@@ -90,8 +95,9 @@ TEST(OracleLinearLoop, HasFilterWindingAndWeight) {
 
 TEST(OracleLinearLoop, OfACascadeFeedsTheSpeedOfTheMotorBack) {
   ReducedDrive drive = rigid_drive();
-  const Cascade cascade{.position = 6.0, .speed = 0.9, .speed_integral = 4.0, .filter = 3e-3};
-  drive.controller = cascade;
+  const CascadeController cascade{
+      .position = 6.0, .speed = 0.9, .speed_integral = 4.0, .filter = 3e-3};
+  drive.controller = at_load(cascade);
   drive.sensing = {.load_share_of_position = 1.0, .load_share_of_speed = 0.0};
   drive.contact = CompliantContact{.stiffness = 900.0, .damping = 0.1};
   const auto speed_controller = [&](const Complex& s) {
@@ -181,7 +187,7 @@ TEST(OracleLinearLoop, OfASampledDriveIsExact) {
                              .derivative = 0.5};
     ReducedDrive drive = rigid_drive();
     drive.motor.friction.viscous = drive.load.friction.viscous = 0.0;
-    drive.controller = ProportionalDerivative{2.0, 0.5};
+    drive.controller = at_load(PID{PIDTerms::PD, 2.0, 0.0, 0.5});
     drive.sampling = Sampling{.period = period, .delay = periods * period};
     expect_figures(
         drive, [&](double w) { return hand.open(w); }, [&](double w) { return hand.closed(w); },
@@ -190,10 +196,13 @@ TEST(OracleLinearLoop, OfASampledDriveIsExact) {
 }
 
 TEST(OracleLinearLoop, OfAFastSampledDriveIsThatOfADelay) {
-  const ProportionalIntegralDerivative pid{
-      .proportional = 5.0, .integral = 8.0, .derivative = 0.4, .filter = 4e-3};
+  const PID pid{.terms = PIDTerms::PID,
+                .proportional = 5.0,
+                .integral = 8.0,
+                .derivative = 0.4,
+                .filter = 4e-3};
   ReducedDrive drive = rigid_drive();
-  drive.controller = pid;
+  drive.controller = at_load(pid);
   const double delay = 5e-3;
   // The hold counts as half a period; Tustin's rule and the hold err by (ωT)²/12.
   const double period = 1e-4;
@@ -219,7 +228,7 @@ TEST(PropertyLinearLoop, TheMarginIsTheDelayThatMakesItUnstable) {
   std::uniform_real_distribution<double> share(0.5, 2.0);
   for (int i = 0; i < 20; ++i) {
     ReducedDrive drive = rigid_drive();
-    drive.controller = ProportionalDerivative{2.0 * share(random), 0.3 * share(random)};
+    drive.controller = at_load(PID{PIDTerms::PD, 2.0 * share(random), 0.0, 0.3 * share(random)});
     drive.sampling = Sampling{.period = 3e-3 * share(random)};
     const std::optional<LinearLoop> figures = loop_figures(drive);
     ASSERT_TRUE(figures && figures->phase_margin);
@@ -245,16 +254,18 @@ TEST(EdgeLinearLoop, AnUnstableLoopHasNoFigures) {
   ReducedDrive drive = rigid_drive();
   // s³ J + s² F + K s + I is stable up to I = F K/J.
   const double most = friction * 2.0 / inertia;
-  drive.controller = ProportionalIntegralDerivative{.proportional = 2.0, .integral = 0.999 * most};
+  drive.controller =
+      at_load(PID{.terms = PIDTerms::PID, .proportional = 2.0, .integral = 0.999 * most});
   EXPECT_TRUE(loop_figures(drive)->is_stable);
   EXPECT_TRUE(loop_figures(drive)->phase_margin);
-  drive.controller = ProportionalIntegralDerivative{.proportional = 2.0, .integral = 1.001 * most};
+  drive.controller =
+      at_load(PID{.terms = PIDTerms::PID, .proportional = 2.0, .integral = 1.001 * most});
   expect_none(loop_figures(drive));
   drive = rigid_drive();
   drive.motor.friction.viscous = drive.load.friction.viscous = 0.0;
   expect_none(loop_figures(drive));  // swings for ever
   drive = rigid_drive();
-  drive.controller = ProportionalDerivative{};
+  drive.controller = at_load(PID{});
   expect_none(loop_figures(drive));  // may stand anywhere
 }
 
@@ -268,7 +279,7 @@ TEST(EdgeLinearLoop, WhatThereIsNotIsAbsent) {
   EXPECT_FALSE(figures->phase_margin);  // |L| is at most 2/4
   EXPECT_FALSE(figures->crossover);
   EXPECT_TRUE(figures->bandwidth);
-  drive.controller = ProportionalDerivative{};
+  drive.controller = at_load(PID{});
   figures = loop_figures(drive);
   ASSERT_TRUE(figures);
   EXPECT_TRUE(figures->is_stable);

@@ -64,10 +64,6 @@ class ContinuousLoop : public DisturbedLoop {
 
 }  // namespace
 
-bool continuous_loop_decays(const LinearDrive<Interval>& drive) {
-  return DecayingMotion::of(flow_of(drive.loop()), TimeKind::continuous).has_value();
-}
-
 std::unique_ptr<DisturbedLoop> continuous_loop(const LinearDrive<Interval>& drive) {
   LinearSystem<Interval> loop = drive.loop();
   std::optional<DecayingMotion> motion = DecayingMotion::of(flow_of(loop), TimeKind::continuous);

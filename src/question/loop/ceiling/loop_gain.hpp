@@ -71,7 +71,5 @@ bool loop_decays(const LinearDrive<Interval>& drive);
 /// The parts of both, by how the controller acts.
 std::unique_ptr<DisturbedLoop> continuous_loop(const LinearDrive<Interval>& drive);
 std::unique_ptr<DisturbedLoop> sampled_loop(const LinearDrive<Interval>& drive);
-bool continuous_loop_decays(const LinearDrive<Interval>& drive);
-bool sampled_loop_decays(const LinearDrive<Interval>& drive);
 
 }  // namespace gearlash

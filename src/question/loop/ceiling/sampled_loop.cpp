@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/stepped_drive.hpp"
 #include "numeric/decaying_motion.hpp"
 #include "question/loop/ceiling/loop_gain.hpp"
 
@@ -20,16 +21,6 @@ namespace {
 
 /// Of the numbers at a tick, and of what is read there.
 using Form = LinearForm<Interval>;
-
-/// A part of a hold over which outputs bend little.
-struct Segment {
-  Interval from;
-  Interval length;
-  std::vector<Form> states;  ///< of the plant, at its start
-  std::vector<Form> slopes;  ///< x′ at its start
-  std::vector<Form> ends;    ///< of the plant, at its end, where the torque jumps; else none
-  Form torque;
-};
 
 /// What acts between the ticks, as it has become by the next: vectors whose norms, times their
 /// weights, have the integral as their sum.
@@ -44,13 +35,19 @@ struct Entry {
   IntervalVector acting{};
 };
 
+/// Φ − 1.
+IntervalMatrix changes_of(const LinearSystem<Interval>& step) {
+  IntervalMatrix changes = flow_of(step);
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    changes.rows[i][i] = changes.rows[i][i] - 1.0;
+  }
+  return changes;
+}
+
 class SampledLoop : public DisturbedLoop {
  public:
   explicit SampledLoop(const LinearDrive<Interval>& drive)
-      : drive_(drive), plant_(drive.plant()), flow_(flow_of(plant_)) {
-    plan(1);
-  }
-  bool decays() const { return DecayingMotion::of(changes(), TimeKind::stepwise).has_value(); }
+      : drive_(drive), plant_(drive.plant()), flow_(flow_of(plant_)) {}
   bool prove();
   LoopGain gain(const Disturbance& disturbance) override;
   StartGain start_gain(StartOutput output) override;
@@ -63,15 +60,11 @@ class SampledLoop : public DisturbedLoop {
   }
 
  private:
-  Form state(std::size_t index) const { return state_form<Interval>(size_, index); }
-  Form nothing() const { return {IntervalVector(size_, Interval(0.0)), {}}; }
-  Form of_tick(Form of_plant) const;
-  Form sensed_speed() const;
-  Form combination(const IntervalVector& row, const std::vector<Form>& states) const;
-  void plan(int parts);
-  void pass(const HeldTorqueOf<Interval>& hold, const Form& torque, int parts,
-            std::vector<Form>& states);
-  IntervalMatrix changes() const;
+  Form combination(const IntervalVector& row, const std::vector<Form>& states) const {
+    return gearlash::combination(row, states, size());
+  }
+  std::size_t size() const { return at_ticks_.step.size(); }
+  IntervalMatrix changes() const { return changes_of(at_ticks_.step); }
 
   Entry entry(const Disturbance& disturbance) const;
   Spread spread(const IntervalVector& acting) const;
@@ -93,12 +86,7 @@ class SampledLoop : public DisturbedLoop {
   LinearDrive<Interval> drive_;
   LinearSystem<Interval> plant_;
   IntervalMatrix flow_;  ///< of the plant
-  std::size_t last_reading_ = 0;
-  std::size_t queue_ = 0;  ///< torques that wait, the newest first
-  std::size_t size_ = 0;
-  Form asked_;              ///< torque worked out at the tick
-  std::vector<Form> next_;  ///< all numbers at the next tick
-  std::vector<Segment> segments_;
+  SteppedDrive<Interval> at_ticks_ = stepped_drive(drive_, TorqueInput::requested);
   int spread_parts_ = 1;
   std::optional<DecayingMotion> motion_;
 };
@@ -119,99 +107,10 @@ bool SampledLoop::prove() {
   const Spread spread = this->spread(gap.acting);
   const Interval curvature = norms(spread.vectors[1], {load.forms.front()}).front();
   spread_parts_ = parts(spread.weights[1] * curvature, extent.at_ends);
-  if (const int needed = parts(extent.bend, extent.at_ends); needed > 1) plan(needed);
+  if (const int needed = parts(extent.bend, extent.at_ends); needed > 1) {
+    at_ticks_ = stepped_drive(drive_, TorqueInput::requested, needed);
+  }
   return true;
-}
-
-Form SampledLoop::combination(const IntervalVector& row, const std::vector<Form>& states) const {
-  Form form = nothing();
-  for (std::size_t i = 0; i < row.size(); ++i) {
-    if (!is_exactly(row[i], 0.0)) form = std::move(form) + row[i] * states[i];
-  }
-  return form;
-}
-
-/// A number of the plant among all that are kept.
-Form SampledLoop::of_tick(Form of_plant) const {
-  of_plant.of_state.resize(size_, Interval(0.0));
-  return of_plant;
-}
-
-/// From a tachometer, or from the difference to the last position.
-Form SampledLoop::sensed_speed() const {
-  if (!drive_.counts) return of_tick(plant_.speed);
-  Form change = of_tick(plant_.counted);
-  change[LinearInput::speed_reading] = 1.0;
-  change.of_state[last_reading_] = -1.0;
-  return 1.0 / drive_.period * std::move(change);
-}
-
-/// The plant over a time with one torque, as segments of equal length.
-void SampledLoop::pass(const HeldTorqueOf<Interval>& hold, const Form& torque, int parts,
-                       std::vector<Form>& states) {
-  const Interval length =
-      not_negative(hold.until - hold.from) / Interval(static_cast<double>(parts));
-  const IntervalVector of_torque = plant_.column(LinearInput::torque);
-  const LinearPassage over = passage(flow_, {of_torque}, length);
-  for (int i = 0; i < parts; ++i) {
-    std::vector<Form> slopes;
-    std::vector<Form> next;
-    for (std::size_t k = 0; k < plant_.size(); ++k) {
-      slopes.push_back(combination(flow_.rows[k], states) + of_torque[k] * torque);
-      next.push_back(combination(over.flow.rows[k], states) + over.of_inputs[0][k] * torque);
-    }
-    segments_.push_back({.from = hold.from + static_cast<double>(i) * length,
-                         .length = length,
-                         .states = std::move(states),
-                         .slopes = std::move(slopes),
-                         .ends = {},
-                         .torque = torque});
-    states = std::move(next);
-  }
-  segments_.back().ends = states;
-}
-
-/// What happens from one tick to the next, in segments: `parts` for each torque.
-void SampledLoop::plan(int parts) {
-  segments_.clear();
-  const std::size_t waiting = drive_.holds.front().age;
-  last_reading_ = plant_.size() + drive_.order();
-  queue_ = last_reading_ + (drive_.counts ? 1 : 0);
-  size_ = queue_ + waiting;
-
-  const Form position = of_tick(plant_.position);
-  const Form speed = sensed_speed();
-  const auto worked_out = [&](const ControllerRow<Interval>& row) {
-    return drive_.worked_out(row, position, speed, plant_.size());
-  };
-  asked_ = worked_out(drive_.torque);
-  std::vector<Form> states;
-  for (std::size_t i = 0; i < plant_.size(); ++i) states.push_back(state(i));
-  for (const HeldTorqueOf<Interval>& hold : drive_.holds) {
-    pass(hold, hold.age == 0 ? asked_ : state(queue_ + hold.age - 1), parts, states);
-  }
-
-  next_ = std::move(states);
-  for (const ControllerRow<Interval>& row : drive_.controller_states) {
-    next_.push_back(worked_out(row));
-  }
-  if (drive_.counts) {
-    next_.push_back(of_tick(plant_.counted));
-    next_.back()[LinearInput::speed_reading] = 1.0;
-  }
-  for (std::size_t i = 0; i < waiting; ++i) {
-    next_.push_back(i == 0 ? asked_ : state(queue_ + i - 1));
-  }
-}
-
-/// Φ − 1.
-IntervalMatrix SampledLoop::changes() const {
-  IntervalMatrix changes(size_);
-  for (std::size_t i = 0; i < size_; ++i) {
-    changes.rows[i] = next_[i].of_state;
-    changes.rows[i][i] = changes.rows[i][i] - 1.0;
-  }
-  return changes;
 }
 
 Entry SampledLoop::entry(const Disturbance& disturbance) const {
@@ -230,7 +129,7 @@ Spread SampledLoop::spread(const IntervalVector& acting) const {
   const IntervalMatrix over = passage(flow_, {}, length).flow;
   const IntervalMatrix within = passage(flow_, {}, Interval(0.0, length.high)).flow;
   const auto add = [&](IntervalVector vector, const Interval& share) {
-    vector.resize(size_, Interval(0.0));
+    vector.resize(size(), Interval(0.0));
     spread.vectors.push_back(std::move(vector));
     spread.weights.push_back(share);
   };
@@ -265,7 +164,7 @@ std::vector<Interval> SampledLoop::norms(const IntervalVector& input,
 /// The largest |form| of each, but for what acts since the tick.
 std::vector<Interval> SampledLoop::largest(const std::vector<Form>& forms,
                                            const Entry& entry) const {
-  std::vector<Interval> result = norms(at_once(next_, entry.disturbance), forms);
+  std::vector<Interval> result = norms(at_once(at_ticks_.step.slopes, entry.disturbance), forms);
   for (std::size_t i = 0; i < forms.size(); ++i) {
     result[i] = result[i] + abs(at_once(forms[i], entry.disturbance));
   }
@@ -289,7 +188,7 @@ SampledLoop::Track SampledLoop::track(const Form& output, const Entry& entry) co
   std::vector<Interval> since_tick_at_ends;
   Interval since_tick = 0.0;  // ∫|c e^{Aθ} b| up to the segment's start
   const IntervalVector second = times(output.of_state, flow_);
-  for (const Segment& segment : segments_) {
+  for (const HeldPart<Interval>& segment : at_ticks_.parts) {
     const Interval within(0.0, segment.length.high);
     track.forms.push_back(combination(output.of_state, segment.states) +
                           of_torque * segment.torque);
@@ -319,13 +218,14 @@ SampledLoop::Track SampledLoop::track(const Form& output, const Entry& entry) co
 /// `sizes`: of the track's forms.
 SampledLoop::Extent SampledLoop::extent(const Track& track, const Interval* sizes) const {
   Extent extent;
-  for (std::size_t i = 0; i < segments_.size(); ++i) {
+  const std::vector<HeldPart<Interval>>& segments = at_ticks_.parts;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
     extent.at_ends = max(extent.at_ends, sizes[2 * i] + track.since_tick[i]);
-    extent.bend = max(extent.bend, square(segments_[i].length) / 8.0 *
+    extent.bend = max(extent.bend, square(segments[i].length) / 8.0 *
                                        (sizes[2 * i + 1] + track.bends_since_tick[i]));
   }
-  for (std::size_t i = segments_.size(); i < track.since_tick.size(); ++i) {
-    extent.at_ends = max(extent.at_ends, sizes[segments_.size() + i] + track.since_tick[i]);
+  for (std::size_t i = segments.size(); i < track.since_tick.size(); ++i) {
+    extent.at_ends = max(extent.at_ends, sizes[segments.size() + i] + track.since_tick[i]);
   }
   return extent;
 }
@@ -337,7 +237,7 @@ LoopGain SampledLoop::gain(const Disturbance& disturbance) {
   const bool is_rigid = plant_.gap_acceleration.has_value();
   if (!is_rigid) outputs.push_back(&plant_.motor);
   if (reads_gap_speed()) outputs.push_back(&*plant_.gap_acceleration);
-  std::vector<Form> forms{asked_};
+  std::vector<Form> forms{at_ticks_.step.effort};
   std::vector<Track> tracks;
   for (const Form* output : outputs) {
     tracks.push_back(track(*output, entry));
@@ -363,8 +263,8 @@ LoopGain SampledLoop::gain(const Disturbance& disturbance) {
 /// |h| ≤ (|h(0)| + Σ|h(k + 1) − h(k)|)/2 for every h that tends to 0.
 double SampledLoop::peak(const IntervalVector& start) const {
   IntervalVector change = times(changes(), start);
-  const Interval twice =
-      abs(dot(asked_.of_state, start)) + motion_->impulse_norm(change, asked_.of_state);
+  const Interval twice = abs(dot(at_ticks_.step.effort.of_state, start)) +
+                         motion_->impulse_norm(change, at_ticks_.step.effort.of_state);
   return (0.5 * twice).high;
 }
 
@@ -373,22 +273,21 @@ StartGain SampledLoop::start_gain(StartOutput output) {
   if (output != StartOutput::effort) return {};
   const auto extended = [&](IntervalVector start) {
     const Interval counted = dot(plant_.counted.of_state, start);
-    start.resize(size_, Interval(0.0));
-    if (drive_.counts) start[last_reading_] = counted;
+    start.resize(size(), Interval(0.0));
+    if (drive_.counts) start[at_ticks_.last_counted] = counted;
     return start;
   };
   IntervalVector moving = extended(plant_.start_of_speed);
-  if (drive_.counts) moving[last_reading_] = -drive_.period;
+  if (drive_.counts) moving[at_ticks_.last_counted] = -drive_.period;
   IntervalVector gap = extended(plant_.start_of_gap);
-  if (drive_.counts) gap[last_reading_] = gap[last_reading_] + plant_.counted[LinearInput::gap];
+  if (drive_.counts)
+    gap[at_ticks_.last_counted] = gap[at_ticks_.last_counted] + plant_.counted[LinearInput::gap];
   return {.of_position = peak(extended(plant_.start_of_position)),
           .of_speed = peak(moving),
           .of_gap = peak(gap)};
 }
 
 }  // namespace
-
-bool sampled_loop_decays(const LinearDrive<Interval>& drive) { return SampledLoop(drive).decays(); }
 
 std::unique_ptr<DisturbedLoop> sampled_loop(const LinearDrive<Interval>& drive) {
   auto loop = std::make_unique<SampledLoop>(drive);
@@ -401,7 +300,12 @@ std::unique_ptr<DisturbedLoop> disturbed_loop(const LinearDrive<Interval>& drive
 }
 
 bool loop_decays(const LinearDrive<Interval>& drive) {
-  return drive.holds.empty() ? continuous_loop_decays(drive) : sampled_loop_decays(drive);
+  const auto motion =
+      drive.holds.empty()
+          ? DecayingMotion::of(flow_of(drive.loop()), TimeKind::continuous)
+          : DecayingMotion::of(changes_of(stepped_drive(drive, TorqueInput::requested).step),
+                               TimeKind::stepwise);
+  return motion.has_value();
 }
 
 }  // namespace gearlash

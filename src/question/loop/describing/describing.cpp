@@ -71,8 +71,8 @@ RationalFunction rate(const Sampling& sampling, double share) {
 /// would have tiny coefficients where terms cancel.
 ExactControllerTransfer sampled_transfer(const ReducedDrive& drive, TorqueGiven torque) {
   const Sampling& sampling = *drive.sampling;
-  ExactControllerTransfer transfer = exact_transfer(linear_controller(drive.controller), torque);
-  if (std::holds_alternative<SampledTransfer>(drive.controller)) {
+  ExactControllerTransfer transfer = exact_transfer(drive.controller, torque);
+  if (drive.controller.is_of_samples) {
     transfer.position = by_frequency(transfer.position, sampling.period);
     return transfer;  // it has neither speed nor anti-windup
   }
@@ -105,8 +105,7 @@ RationalFunction lag_of(const Winding& winding) {
 /// Of the torque as the winding gives it; of the requested torque where that may be limited.
 Feedback feedback_of(const ReducedDrive& drive, TorqueGiven torque) {
   ExactControllerTransfer transfer =
-      drive.sampling ? sampled_transfer(drive, torque)
-                     : exact_transfer(linear_controller(drive.controller), torque);
+      drive.sampling ? sampled_transfer(drive, torque) : exact_transfer(drive.controller, torque);
   RationalFunction speed_by_position = variable();
   double delay = 0.0;
   if (drive.sampling) {
@@ -231,15 +230,21 @@ DescribedMotion motion_of(const DescribingAnalysis& analysis, const PredictedCyc
   return motion;
 }
 
-void find_cycles(DescribingAnalysis& analysis, double gap) {
-  if (!is_in_loop(analysis)) return;
+/// With assumptions and cycles.
+DescribingAnalysis completed(DescribingAnalysis analysis, const ReducedDrive& drive,
+                             bool delay_is_rational) {
+  analysis.assumptions = omissions(drive, analysis.part, delay_is_rational);
+  if (!is_in_loop(analysis)) return analysis;
   HarmonicBalance balance =
       harmonic_balance(analysis.nonlinearity, analysis.loop, searched_frequencies(analysis.loop));
   analysis.unresolved = std::move(balance.unresolved);
   for (const PredictedCycle& cycle : balance.cycles) {
-    analysis.cycles.push_back(motion_of(analysis, cycle, gap));
+    analysis.cycles.push_back(motion_of(analysis, cycle, drive.backlash));
   }
+  return analysis;
 }
+
+const TransferFunction unchanged{{1.0}, {1.0}};
 
 // ---- one part at a time -------------------------------------------------------------------------
 
@@ -262,21 +267,16 @@ GapLoop gap_loop(const ReducedDrive& drive, const Feedback& feedback) {
           is_rational};
 }
 
-DescribingAnalysis described_gap(const ReducedDrive& drive, DescribedPart part) {
+DescribingAnalysis described_gap(const ReducedDrive& drive, DescribedPart part,
+                                 const Nonlinearity& play) {
   const Feedback feedback = feedback_of(drive, TorqueGiven::as_asked);
   const GapLoop loop = gap_loop(drive, feedback);
-  DescribingAnalysis analysis{.part = part,
-                              .nonlinearity = FrictionControlledBacklash{drive.backlash},
-                              .loop = loop.function,
-                              .input_per_motor = {{1.0}, {1.0}}};
-  if (part == DescribedPart::gap_load_coasting) {
-    analysis.nonlinearity = InertiaControlledBacklash{drive.backlash};
-  }
-  analysis.assumptions = omissions(drive, part, loop.delay_is_rational);
+  DescribingAnalysis analysis = completed(
+      {.part = part, .nonlinearity = play, .loop = loop.function, .input_per_motor = unchanged},
+      drive, loop.delay_is_rational);
   const bool reacts = feedback.from_load.is_zero() && !feedback.from_motor.is_zero();
   analysis.assumptions.insert(analysis.assumptions.begin(),
                               reacts ? Assumption::load_reacts : Assumption::motor_carries_all);
-  find_cycles(analysis, drive.backlash);
   return analysis;
 }
 
@@ -291,15 +291,12 @@ DescribingAnalysis described_elastic_gap(const ReducedDrive& drive,
       RationalFunction(1.0) +
       RationalFunction(Rational(contact.damping) / Rational(contact.stiffness)) * variable();
   const RationalFunction whole = motor + load + from_load;
-  DescribingAnalysis analysis{
-      .part = DescribedPart::elastic_gap,
-      .nonlinearity = DeadZone{0.5 * drive.backlash, contact.stiffness},
-      .loop = rounded(damping * whole / (motor * load)),
-      .input_per_motor = rounded(whole / (load + from_load)),
-      .load_per_motor = rounded(RationalFunction(-1.0) * motor / (load + from_load)),
-      .assumptions = omissions(drive, DescribedPart::elastic_gap, feedback.delay > 0.0)};
-  find_cycles(analysis, drive.backlash);
-  return analysis;
+  return completed({.part = DescribedPart::elastic_gap,
+                    .nonlinearity = DeadZone{0.5 * drive.backlash, contact.stiffness},
+                    .loop = rounded(damping * whole / (motor * load)),
+                    .input_per_motor = rounded(whole / (load + from_load)),
+                    .load_per_motor = rounded(RationalFunction(-1.0) * motor / (load + from_load))},
+                   drive, feedback.delay > 0.0);
 }
 
 DescribingAnalysis described_torque_limit(const ReducedDrive& drive) {
@@ -309,38 +306,29 @@ DescribingAnalysis described_torque_limit(const ReducedDrive& drive) {
   const RationalFunction delay =
       winds_back ? delay_approximation(feedback.delay) : RationalFunction(1.0);
   const RationalFunction loop = feedback.whole() * delay / plant - feedback.anti_windup;
-  DescribingAnalysis analysis{.part = DescribedPart::torque_limit,
-                              .nonlinearity = Saturation{drive.torque_limit, 1.0},
-                              .loop = rounded(loop, winds_back ? 0.0 : feedback.delay),
-                              .input_per_motor = rounded(loop * plant),
-                              .load_per_motor = TransferFunction{{1.0}, {1.0}},
-                              .assumptions = omissions(drive, DescribedPart::torque_limit,
-                                                       winds_back && feedback.delay > 0.0)};
-  find_cycles(analysis, drive.backlash);
-  return analysis;
+  return completed({.part = DescribedPart::torque_limit,
+                    .nonlinearity = Saturation{drive.torque_limit, 1.0},
+                    .loop = rounded(loop, winds_back ? 0.0 : feedback.delay),
+                    .input_per_motor = rounded(loop * plant),
+                    .load_per_motor = unchanged},
+                   drive, winds_back && feedback.delay > 0.0);
 }
 
 DescribingAnalysis described_coulomb_friction(const ReducedDrive& drive) {
   const Feedback feedback = feedback_of(drive, TorqueGiven::as_asked);
   const RationalFunction back = feedback.whole() * delay_approximation(feedback.delay);
-  DescribingAnalysis analysis{
-      .part = DescribedPart::coulomb_friction,
-      .nonlinearity = CoulombFriction{coulomb_of(drive)},
-      .loop = rounded(variable() / (plant_of(drive) + back)),
-      .input_per_motor = rounded(variable()),
-      .load_per_motor = TransferFunction{{1.0}, {1.0}},
-      .assumptions = omissions(drive, DescribedPart::coulomb_friction, feedback.delay > 0.0)};
-  find_cycles(analysis, drive.backlash);
-  return analysis;
+  return completed({.part = DescribedPart::coulomb_friction,
+                    .nonlinearity = CoulombFriction{coulomb_of(drive)},
+                    .loop = rounded(variable() / (plant_of(drive) + back)),
+                    .input_per_motor = rounded(variable()),
+                    .load_per_motor = unchanged},
+                   drive, feedback.delay > 0.0);
 }
 
 /// The drive whose controller does not receive the speed.
 ReducedDrive without_speed(ReducedDrive drive) {
-  if (std::holds_alternative<SampledTransfer>(drive.controller)) return drive;  // it does not
-  LinearController linear = linear_controller(drive.controller);
-  for (std::vector<double>& row : linear.input_matrix) row[2] = 0.0;
-  linear.direct[2] = 0.0;
-  drive.controller = linear;
+  for (std::vector<double>& row : drive.controller.input_matrix) row[2] = 0.0;
+  drive.controller.direct[2] = 0.0;
   return drive;
 }
 
@@ -356,15 +344,12 @@ DescribingAnalysis described_error(const ReducedDrive& drive, DescribedPart part
       has_speed ? delay_approximation(whole.delay) : RationalFunction(1.0);
   const RationalFunction input = drive.error_shape.is_of_speed ? variable() : RationalFunction(1.0);
   const RationalFunction loop = input * of_error * delay / (plant_of(drive) + of_speed * delay);
-  DescribingAnalysis analysis{
-      .part = part,
-      .nonlinearity = nonlinearity,
-      .loop = rounded(loop, has_speed ? 0.0 : whole.delay),
-      .input_per_motor = rounded(input),
-      .load_per_motor = TransferFunction{{1.0}, {1.0}},
-      .assumptions = omissions(drive, part, has_speed && whole.delay > 0.0)};
-  find_cycles(analysis, drive.backlash);
-  return analysis;
+  return completed({.part = part,
+                    .nonlinearity = nonlinearity,
+                    .loop = rounded(loop, has_speed ? 0.0 : whole.delay),
+                    .input_per_motor = rounded(input),
+                    .load_per_motor = unchanged},
+                   drive, has_speed && whole.delay > 0.0);
 }
 
 }  // namespace
@@ -381,8 +366,10 @@ std::vector<DescribingAnalysis> describing_analyses(const ReducedDrive& drive) {
     return analyses;
   }
   if (drive.backlash > 0.0) {
-    analyses = {described_gap(drive, DescribedPart::gap_load_held),
-                described_gap(drive, DescribedPart::gap_load_coasting)};
+    analyses = {described_gap(drive, DescribedPart::gap_load_held,
+                              FrictionControlledBacklash{drive.backlash}),
+                described_gap(drive, DescribedPart::gap_load_coasting,
+                              InertiaControlledBacklash{drive.backlash})};
     if (const auto* compliant = std::get_if<CompliantContact>(&drive.contact)) {
       analyses.push_back(described_elastic_gap(drive, *compliant));
     }
@@ -403,57 +390,35 @@ bool is_in_loop(const DescribingAnalysis& analysis) {
 }
 
 const char* name_of(DescribedPart part) {
-  switch (part) {
-    case DescribedPart::gap_load_held:
-      return "gap, load held by friction";
-    case DescribedPart::gap_load_coasting:
-      return "gap, load coasting";
-    case DescribedPart::elastic_gap:
-      return "gap with elastic faces";
-    case DescribedPart::torque_limit:
-      return "torque limit";
-    case DescribedPart::coulomb_friction:
-      return "Coulomb friction";
-    case DescribedPart::dead_band:
-      return "dead band";
-    case DescribedPart::relay:
-      return "relay";
-  }
-  return "";
+  static constexpr const char* names[] = {"gap, load held by friction",
+                                          "gap, load coasting",
+                                          "gap with elastic faces",
+                                          "torque limit",
+                                          "Coulomb friction",
+                                          "dead band",
+                                          "relay"};
+  return names[static_cast<std::size_t>(part)];
 }
 
 const char* description_of(Assumption assumption) {
-  switch (assumption) {
-    case Assumption::motor_carries_all:
-      return "the motor drives all inertia and viscous friction at all times";
-    case Assumption::load_reacts:
-      return "the sensors are on the motor, so the gap is outside the loop of positions and causes "
-             "no cycle there; the description takes the first harmonic of the load's inertia and "
-             "viscous friction, which act back on the motor";
-    case Assumption::gap_left_out:
-      return "there is no gap: both shafts turn as one";
-    case Assumption::torque_limit_left_out:
-      return "the torque is not limited";
-    case Assumption::coulomb_left_out:
-      return "all friction is viscous";
-    case Assumption::breakaway_left_out:
-      return "breakaway torque has no effect, because a sine is never at rest; hunting from "
-             "stiction is not described";
-    case Assumption::sampling_as_delay:
-      return "the controller is continuous, with a delay of half a sampling period plus its "
-             "computational delay";
-    case Assumption::delay_as_rational:
-      return "this delay inside the loop is a rational function of order 4";
-    case Assumption::encoder_left_out:
-      return "encoders have no steps";
-    case Assumption::signals_left_out:
-      return "reference and load torque are 0";
-    case Assumption::error_shape_left_out:
-      return "the controller receives the error itself, without dead band or compensation";
-    case Assumption::falling_friction_left_out:
-      return "dry friction does not fall with speed";
-  }
-  return "";
+  static constexpr const char* descriptions[] = {
+      "the motor drives all inertia and viscous friction at all times",
+      "the sensors are on the motor, so the gap is outside the loop of positions and causes "
+      "no cycle there; the description takes the first harmonic of the load's inertia and "
+      "viscous friction, which act back on the motor",
+      "there is no gap: both shafts turn as one",
+      "the torque is not limited",
+      "all friction is viscous",
+      "breakaway torque has no effect, because a sine is never at rest; hunting from "
+      "stiction is not described",
+      "the controller is continuous, with a delay of half a sampling period plus its "
+      "computational delay",
+      "this delay inside the loop is a rational function of order 4",
+      "encoders have no steps",
+      "reference and load torque are 0",
+      "the controller receives the error itself, without dead band or compensation",
+      "dry friction does not fall with speed"};
+  return descriptions[static_cast<std::size_t>(assumption)];
 }
 
 std::vector<ExactMotion> exact_motions(const Answer& answer) {

@@ -13,7 +13,8 @@
 
 namespace gearlash::drive {
 
-/// The nonlinearity that is described. All others of the drive are neglected.
+/// The nonlinearity that is described. All others of the drive are neglected. name_of() is by
+/// order.
 enum class DescribedPart {
   gap_load_held,      ///< from motor to load position; friction holds the load in the gap
   gap_load_coasting,  ///< likewise; the load keeps its speed in the gap
@@ -24,7 +25,8 @@ enum class DescribedPart {
   relay               ///< from the error or the speed to the torque, per level: a relay
 };
 
-/// Assumptions, besides that the nonlinearity's input is a sine about 0.
+/// Assumptions, besides that the nonlinearity's input is a sine about 0. description_of() is by
+/// order.
 enum class Assumption {
   motor_carries_all,
   load_reacts,

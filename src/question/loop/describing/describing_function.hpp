@@ -4,9 +4,6 @@
 #include <complex>
 #include <optional>
 #include <variant>
-#include <vector>
-
-#include "base/fault.hpp"
 
 namespace gearlash {
 
@@ -38,13 +35,6 @@ struct InertiaControlledBacklash {
   double gap = 0.0;  ///< face to face, not the half; at least 0, in the unit of the input
 
   bool operator==(const InertiaControlledBacklash&) const = default;
-};
-
-/// y = ±level, with the sign of the input. N = 4 level/(πA).
-struct Relay {
-  double level = 1.0;  ///< positive, in the unit of the output
-
-  bool operator==(const Relay&) const = default;
 };
 
 /// y = ±level; switches up as the input rises through half_width, down as it falls through
@@ -84,15 +74,12 @@ struct DeadZone {
   bool operator==(const DeadZone&) const = default;
 };
 
-using Nonlinearity = std::variant<FrictionControlledBacklash, InertiaControlledBacklash, Relay,
+using Nonlinearity = std::variant<FrictionControlledBacklash, InertiaControlledBacklash,
                                   RelayWithHysteresis, Saturation, CoulombFriction, DeadZone>;
 
-/// Every number that is not finite or outside the range stated with it.
-std::vector<Fault> faults(const Nonlinearity& nonlinearity);
-
 /// N(A), to a few epsilons of each part, at the ends too (A → h, A → ∞). NaN only for an
-/// inertia-controlled gap with A < gap/π. Throws InvalidInput, also for an amplitude that is not
-/// positive and finite.
+/// inertia-controlled gap with A < gap/π. Precondition: A is positive and finite, and every number
+/// within the range stated with it.
 std::complex<double> describing_gain(const Nonlinearity& nonlinearity, double amplitude);
 
 /// dN/dA, likewise. For both gaps |dN/dA| = 4h/(πA²), whatever the lag. At A = half_width the

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "base/bracketed_root.hpp"
-#include "base/range_check.hpp"
 
 namespace gearlash {
 namespace {
@@ -288,17 +287,6 @@ HarmonicBalance search(const Loop& loop, std::vector<Bounds> parts) {
   return found;
 }
 
-void require_range(const Bounds& frequencies) {
-  RangeCheck check;
-  check.positive("frequencies.low", frequencies.low, "");
-  check.positive("frequencies.high", frequencies.high, "");
-  if (frequencies.high < frequencies.low) {
-    check.refuse("frequencies.high", exact_text(frequencies.high),
-                 "must be at least frequencies.low");
-  }
-  require_none(check.faults());
-}
-
 // ---- The servo
 
 /// Amplitude of the play's output, A − h; for A < 2h as h tan²(φ/2), which keeps its digits.
@@ -321,18 +309,12 @@ double coasting_load_amplitude(const PredictedCycle& cycle, double half_gap) {
 
 HarmonicBalance harmonic_balance(const Nonlinearity& nonlinearity, const TransferFunction& loop,
                                  const Bounds& frequencies) {
-  require_none(faults(nonlinearity));
-  require_range(frequencies);
   const Loop whole{nonlinearity, loop, factored(loop)};
   HarmonicBalance found = search(whole, between_undamped_modes(whole.factors, frequencies));
   std::sort(
       found.cycles.begin(), found.cycles.end(),
       [](const PredictedCycle& a, const PredictedCycle& b) { return a.amplitude < b.amplitude; });
   return found;
-}
-
-HarmonicBalance harmonic_balance(const Nonlinearity& nonlinearity, const TransferFunction& loop) {
-  return harmonic_balance(nonlinearity, loop, natural_frequency_range(loop));
 }
 
 Bounds natural_frequency_range(const TransferFunction& loop) {

@@ -48,13 +48,11 @@ struct HarmonicBalance {
 /// G(jω) = −1/slope with a saturation, are not listed. Where the phase turns fast (a mode of
 /// damping below about 1e-5), an epsilon of ω is a large part of the lag; the residual shows it.
 ///
-/// Throws InvalidInput.
+/// Precondition: 0 < low ≤ high, and a sound nonlinearity and loop.
 /// Sources: Gelb and Vander Velde (1968), chapter 3; Loeb, Annales des Télécommunications (1951),
 /// for the criterion; Moore, Interval Analysis (1966), for the search.
 HarmonicBalance harmonic_balance(const Nonlinearity& nonlinearity, const TransferFunction& loop,
                                  const Bounds& frequencies);
-/// Over natural_frequency_range(loop).
-HarmonicBalance harmonic_balance(const Nonlinearity& nonlinearity, const TransferFunction& loop);
 
 /// From 1e-6 of the least to 1e6 times the greatest modulus of a pole or zero not at the origin;
 /// with a delay, to at most 100 turns of its phase (ω delay = 200π), and from at most 1e-6/delay.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/special_numbers.hpp"
+#include "model/sampled_controller.hpp"
 #include "numeric/linear_algebra.hpp"
 #include "numeric/polytope.hpp"
 
@@ -18,6 +19,8 @@ namespace {
 
 using drive::LinearController;
 using drive::ReducedDrive;
+using drive::forms::matrix_of;
+using drive::forms::vector_of;
 using Eigen::Vector2d;
 using Eigen::Vector4d;
 using Eigen::VectorXd;
@@ -31,41 +34,33 @@ struct StandingRequests {
   std::vector<Vector2d> directions;  ///< none, one, or two that span all
 };
 
-LinearController controller_of(const ReducedDrive& drive) {
-  return drive.sampling ? drive::sampled_controller(drive.controller, *drive.sampling)
-                        : drive::linear_controller(drive.controller);
+/// z′ by z, or the change of z from tick to tick.
+Eigen::MatrixXd velocity_of(const ReducedDrive& drive, const LinearController& controller) {
+  Eigen::MatrixXd velocity = matrix_of(controller.state_matrix, controller.order());
+  if (drive.sampling) velocity.diagonal().array() -= 1.0;
+  return velocity;
 }
 
 /// Of z′ = A z + B (r, y) + w (τ − C z − D (r, y)), 0 at rest, or z with a clock, where τ is the
 /// limit and w the anti-windup's; empty where no state stands. `limit`: ±torque limit, or none.
 std::optional<StandingRequests> standing_requests(const ReducedDrive& drive, double reference,
                                                   std::optional<double> limit) {
-  const LinearController controller = controller_of(drive);
-  const std::size_t order = controller.order();
-  const auto size = static_cast<Eigen::Index>(order);
-  const auto weight = [&](std::size_t i) {
-    return limit && !controller.anti_windup.empty() ? controller.anti_windup[i] : 0.0;
-  };
+  const LinearController controller = drive::running_controller(drive);
+  const auto size = static_cast<Eigen::Index>(controller.order());
+  const VectorXd output = vector_of(controller.output);
+  const Eigen::MatrixXd inputs = matrix_of(controller.input_matrix, 3);
+  VectorXd weight = VectorXd::Zero(size);
+  if (limit && !controller.anti_windup.empty()) weight = vector_of(controller.anti_windup);
   Eigen::MatrixXd matrix(size, size + 1);  // of the states and the reading
-  VectorXd right(size);
-  for (std::size_t i = 0; i < order; ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    for (std::size_t j = 0; j < order; ++j) {
-      const double kept = drive.sampling && i == j ? 1.0 : 0.0;
-      matrix(row, static_cast<Eigen::Index>(j)) =
-          controller.state_matrix[i][j] - kept - weight(i) * controller.output[j];
-    }
-    matrix(row, size) = controller.input_matrix[i][1] - weight(i) * controller.direct[1];
-    right[row] = -(controller.input_matrix[i][0] - weight(i) * controller.direct[0]) * reference -
-                 weight(i) * limit.value_or(0.0);
-  }
+  matrix.leftCols(size) = velocity_of(drive, controller) - weight * output.transpose();
+  matrix.col(size) = inputs.col(1) - weight * controller.direct[1];
+  const VectorXd right =
+      -(inputs.col(0) - weight * controller.direct[0]) * reference - weight * limit.value_or(0.0);
   const std::optional<Solutions> all = all_solutions(matrix, right);
   if (!all) return std::nullopt;
   const auto seen = [&](const VectorXd& solution) {
     double torque = controller.direct[1] * solution[size];
-    for (std::size_t j = 0; j < order; ++j) {
-      torque += controller.output[j] * solution[static_cast<Eigen::Index>(j)];
-    }
+    for (Eigen::Index j = 0; j < size; ++j) torque += output[j] * solution[j];
     return Vector2d(solution[size], torque);
   };
   StandingRequests requests{seen(all->one), {}};
@@ -89,18 +84,11 @@ std::optional<StandingRequests> standing_requests(const ReducedDrive& drive, dou
 /// above the one with which the controller stands: C v α, where A v = 0 and A z + B_y = α v. 0
 /// where the controller has no integral, or more than one.
 double winding_rate(const ReducedDrive& drive) {
-  const LinearController controller = controller_of(drive);
+  const LinearController controller = drive::running_controller(drive);
   const auto size = static_cast<Eigen::Index>(controller.order());
   Eigen::MatrixXd matrix(size, size + 1);
-  VectorXd by_reading(size);
-  for (Eigen::Index row = 0; row < size; ++row) {
-    const auto i = static_cast<std::size_t>(row);
-    for (Eigen::Index column = 0; column < size; ++column) {
-      const double kept = drive.sampling && row == column ? 1.0 : 0.0;
-      matrix(row, column) = controller.state_matrix[i][static_cast<std::size_t>(column)] - kept;
-    }
-    by_reading[row] = -controller.input_matrix[i][1];
-  }
+  matrix.leftCols(size) = velocity_of(drive, controller);
+  const VectorXd by_reading = -matrix_of(controller.input_matrix, 3).col(1);
   const auto still = all_solutions(matrix.leftCols(size), VectorXd::Zero(size));
   if (size == 0 || !still || still->directions.cols() != 1) return 0.0;
   const VectorXd integral = still->directions.col(0);
@@ -193,7 +181,8 @@ class Equilibria {
       const auto requests = standing_requests(drive_, reference_, limit);
       for (const ErrorBranch& branch : branches_of(drive_.error_shape)) {
         if (requests) add_with(level, branch, *requests);
-        if (!limit || controller_of(drive_).anti_windup.empty()) add_winding(level, branch);
+        if (!limit || drive::running_controller(drive_).anti_windup.empty())
+          add_winding(level, branch);
       }
     }
     return pieces_;

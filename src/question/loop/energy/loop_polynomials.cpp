@@ -10,21 +10,6 @@ namespace {
 
 using Polynomial = IntervalPolynomial;
 
-TransferPolynomials<Interval> controller_of(const LinearDrive<Interval>& drive) {
-  LinearEquations<Interval> controller{.state_matrix = {},
-                                       .input_columns = {{}, {}, {}},
-                                       .output = drive.torque.of_state,
-                                       .direct = {}};
-  controller.direct = {drive.torque.reference, drive.torque.position, drive.torque.speed};
-  for (const ControllerRow<Interval>& row : drive.controller_states) {
-    controller.state_matrix.push_back(row.of_state);
-    controller.input_columns[0].push_back(row.reference);
-    controller.input_columns[1].push_back(row.position);
-    controller.input_columns[2].push_back(row.speed);
-  }
-  return transfer_polynomials(controller);
-}
-
 Polynomial times_s(Polynomial polynomial) {
   polynomial.insert(polynomial.begin(), Interval(0.0));
   return polynomial;
@@ -50,7 +35,7 @@ bool is_stable(const Polynomial& polynomial) {
 }
 
 LoopPolynomials loop_polynomials(const LinearDrive<Interval>& drive) {
-  TransferPolynomials<Interval> controller = controller_of(drive);
+  TransferPolynomials<Interval> controller = transfer_polynomials(drive.controller);
   LoopPolynomials loop;
   loop.at_reference = std::move(controller.numerators[0]);
   loop.position = scaled(Interval(-1.0), std::move(controller.numerators[1]));

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/references.hpp"
+#include "controllers.hpp"
 #include "model/reduced_drive.hpp"
 #include "question/loop/ceiling/ceiling.hpp"
 
@@ -13,19 +14,20 @@ namespace {
 
 using drive::ReducedDrive;
 
-drive::Controller law_of(const Reference& loop) {
+drive::LinearController law_of(const Reference& loop) {
   const auto number = [&](const char* name) { return loop.input(name); };
   if (loop.kind() == "pid") {
-    return drive::ProportionalIntegralDerivative{.proportional = number("a"),
-                                                 .integral = number("c"),
-                                                 .derivative = number("b"),
-                                                 .filter = number("d")};
+    return at_load(PID{.terms = PIDTerms::PID,
+                       .proportional = number("a"),
+                       .integral = number("c"),
+                       .derivative = number("b"),
+                       .filter = number("d")});
   }
   if (loop.kind() == "cascade") {
-    return drive::Cascade{
-        .position = number("a"), .speed = number("b"), .speed_integral = number("c")};
+    return at_load(CascadeController{
+        .position = number("a"), .speed = number("b"), .speed_integral = number("c")});
   }
-  return drive::LeadLag{.gain = number("a"), .zero = number("b"), .pole = number("c")};
+  return at_load(LeadLagController{.gain = number("a"), .zero = number("b"), .pole = number("c")});
 }
 
 ReducedDrive drive_of(const Reference& loop) {

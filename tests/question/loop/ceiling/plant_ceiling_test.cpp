@@ -9,6 +9,7 @@
 
 #include "base/drive_count.hpp"
 #include "base/seeded_draws.hpp"
+#include "controllers.hpp"
 #include "leaping_drive.hpp"
 #include "question/loop/ceiling/ceiling.hpp"
 
@@ -41,8 +42,8 @@ void draw_sensors(ReducedDrive& drive, SeededDraws& draws) {
 void draw_controller(PDDrive& given, SeededDraws& draws) {
   given.proportional = draws.log_uniform(0.3, 1.0);
   given.derivative = draws.log_uniform(0.5, 1.0);
-  given.drive.controller = drive::ProportionalDerivative{.proportional = given.proportional,
-                                                         .derivative = given.derivative};
+  given.drive.controller = at_load(PID{
+      .terms = PIDTerms::PD, .proportional = given.proportional, .derivative = given.derivative});
 }
 
 PDDrive random_drive(SeededDraws& draws, Kind kind) {
@@ -203,7 +204,7 @@ SummedAnswers summed_answers(const PDDrive& given, int parts, int ticks) {
 void sample(PDDrive& given, SeededDraws& draws) {
   constexpr double period = 0.125;
   given.drive.sampling =
-      drive::Sampling{.period = period, .delay = period * draws.one_of({0.0, 0.5, 1.0, 1.25})};
+      Sampling{.period = period, .delay = period * draws.one_of({0.0, 0.5, 1.0, 1.25})};
 }
 
 /// Rigid faces, no winding and no weight.

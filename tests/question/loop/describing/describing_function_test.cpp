@@ -82,9 +82,6 @@ Waveform waveform_of(const InertiaControlledBacklash& backlash, double amplitude
           }};
 }
 
-Waveform waveform_of(const Relay& relay, double) {
-  return {0.0, {}, [=](double) { return relay.level; }};
-}
 Waveform waveform_of(const CoulombFriction& friction, double) {
   return {0.0, {}, [=](double) { return friction.torque; }};
 }
@@ -119,7 +116,6 @@ std::vector<Nonlinearity> one_of_each(SeededDraws& draws) {
   const double slope = size();
   return {FrictionControlledBacklash{gap},
           InertiaControlledBacklash{gap},
-          Relay{level},
           RelayWithHysteresis{level, width},
           Saturation{level, slope},
           CoulombFriction{level},
@@ -131,7 +127,6 @@ double least_amplitude(const Nonlinearity& nonlinearity) {
   struct {
     double operator()(const FrictionControlledBacklash& n) const { return 0.5 * n.gap; }
     double operator()(const InertiaControlledBacklash& n) const { return n.gap / pi; }
-    double operator()(const Relay&) const { return 1.0; }
     double operator()(const RelayWithHysteresis& n) const { return n.half_width; }
     double operator()(const Saturation& n) const { return n.limit / n.slope; }
     double operator()(const CoulombFriction&) const { return 1.0; }
@@ -312,27 +307,15 @@ TEST(DescribingFunctionEdge, NoGapPassesEverything) {
     EXPECT_FALSE(amplitude_of_gain(nonlinearity, 1.0));
   }
   EXPECT_FALSE(has_lag(RelayWithHysteresis{1.0, 0.0}));
-  EXPECT_EQ(describing_gain(RelayWithHysteresis{2.0, 0.0}, 0.5), describing_gain(Relay{2.0}, 0.5));
+  EXPECT_EQ(describing_gain(RelayWithHysteresis{2.0, 0.0}, 0.5),
+            describing_gain(CoulombFriction{2.0}, 0.5));
 }
 
 TEST(DescribingFunctionEdge, GainsThatAreNotReachedHaveNoAmplitude) {
   EXPECT_FALSE(amplitude_of_gain(Saturation{1.0, 2.0}, 2.0));
   EXPECT_FALSE(amplitude_of_gain(DeadZone{1.0, 2.0}, 2.5));
-  EXPECT_FALSE(amplitude_of_gain(Relay{}, 0.0));
-  EXPECT_FALSE(amplitude_of_gain(Relay{}, -1.0));
-}
-
-TEST(DescribingFunctionEdge, EveryFaultIsNamed) {
-  EXPECT_EQ(faults(Saturation{-1.0, 0.0}).size(), 2U);
-  EXPECT_EQ(faults(FrictionControlledBacklash{-1.0}).front().path, "gap");
-  try {
-    describing_gain(Relay{0.0}, -1.0);
-    FAIL();
-  } catch (const InvalidInput& error) {
-    ASSERT_EQ(error.faults().size(), 2U);
-    EXPECT_EQ(error.faults()[0].path, "level");
-    EXPECT_EQ(error.faults()[1].path, "amplitude");
-  }
+  EXPECT_FALSE(amplitude_of_gain(CoulombFriction{}, 0.0));
+  EXPECT_FALSE(amplitude_of_gain(CoulombFriction{}, -1.0));
 }
 
 }  // namespace

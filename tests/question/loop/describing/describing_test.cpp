@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "closed_form/limit_cycle.hpp"
+#include "controllers.hpp"
 #include "question/loop/describing/servo_estimate.hpp"
 
 namespace gearlash::drive::describing_test {
@@ -25,7 +26,7 @@ ReducedDrive type_one_servo(double gain, double time_constant) {
   drive.motor = {0.25 * time_constant, {.viscous = 0.75}};
   drive.load = {0.75 * time_constant, {.viscous = 0.25}};
   drive.backlash = 2.0;  // h = 1
-  drive.controller = ProportionalDerivative{.proportional = gain};
+  drive.controller = at_load(PID{.proportional = gain});
   return drive;
 }
 
@@ -50,7 +51,7 @@ TEST(OracleDescribing, TheServoHasItsOwnEstimate) {
     drive.motor = {0.25, {.viscous = 1.75 * damping}};
     drive.load = {0.75, {.viscous = 0.25 * damping}};
     drive.backlash = 0.3;
-    drive.controller = ProportionalDerivative{.proportional = 1.0};
+    drive.controller = at_load(PID{.proportional = 1.0});
     const auto analyses = describing_analyses(drive);
     ASSERT_EQ(analyses.size(), 2U);
     std::vector<DescribedMotion> found = analyses[0].cycles;
@@ -82,7 +83,7 @@ TEST(Describing, SensorsOnBothShaftsShareTheLoop) {
   ReducedDrive drive = type_one_servo(5.0, 1.0);
   drive.sensing.load_share_of_position = 0.25;
   drive.sensing.load_share_of_speed = 0.5;
-  drive.controller = ProportionalDerivative{.proportional = 8.0, .derivative = 0.2};
+  drive.controller = at_load(PID{.terms = PIDTerms::PD, .proportional = 8.0, .derivative = 0.2});
   const Complex s{0.0, 1.3};
   const Complex from_load = 2.0 + 0.1 * s;
   const Complex expected = from_load / (s * s + s + 6.0 + 0.1 * s);
@@ -96,7 +97,7 @@ TEST(OracleDescribing, AnElasticGapMeetsTheEquationsOfBothShafts) {
   drive.backlash = 0.02;
   drive.contact = CompliantContact{.stiffness = 3000.0, .damping = 1.5};
   drive.sensing = {.load_share_of_position = 0.75, .load_share_of_speed = 0.0};
-  drive.controller = ProportionalDerivative{.proportional = 40.0, .derivative = 0.1};
+  drive.controller = at_load(PID{.terms = PIDTerms::PD, .proportional = 40.0, .derivative = 0.1});
   const auto analysis = described(drive, DescribedPart::elastic_gap);
   ASSERT_FALSE(analysis.cycles.empty());
   for (const DescribedMotion& cycle : analysis.cycles) {
@@ -124,7 +125,7 @@ ReducedDrive limited_drive(double gain) {
   drive.motor = {0.5, {.viscous = 0.5}};
   drive.load = {0.5, {.viscous = 0.5}};
   drive.backlash = 1e-3;
-  drive.controller = ErrorTransfer{{{9.0 * gain}, {1.0, 9.0}}};
+  drive.controller = at_load(TransferFunctionController{1.0, {9.0 * gain}, {1.0, 9.0}});
   drive.torque_limit = 1.0;
   return drive;
 }
@@ -153,8 +154,11 @@ TEST(OracleDescribing, ATorqueLimitPassesTheShareThatBalances) {
 
 TEST(OracleDescribing, AntiWindupIsWithinTheLoopOfTheTorqueLimit) {
   ReducedDrive drive = limited_drive(1.0);
-  drive.controller = ProportionalIntegralDerivative{
-      .proportional = 3.0, .integral = 4.0, .derivative = 0.5, .tracking_time = 0.25};
+  drive.controller = at_load(PID{.terms = PIDTerms::PID,
+                                 .proportional = 3.0,
+                                 .integral = 4.0,
+                                 .derivative = 0.5,
+                                 .tracking_time = 0.25});
   const auto analysis = described(drive, DescribedPart::torque_limit);
   // z′ = 4 e + (τ − τ_asked)/T, τ_asked = z + 3 e − 0.5 v.
   const double frequency = 1.7;
@@ -174,8 +178,8 @@ ReducedDrive pid_with_friction(double integral) {
   drive.motor = {1.5, {.viscous = 0.3, .coulomb = 0.4, .breakaway = 0.6}};
   drive.load = {0.5, {.viscous = 0.2, .coulomb = 0.1, .breakaway = 0.1}};
   drive.backlash = 1e-3;
-  drive.controller =
-      ProportionalIntegralDerivative{.proportional = 8.0, .integral = integral, .derivative = 1.5};
+  drive.controller = at_load(
+      PID{.terms = PIDTerms::PID, .proportional = 8.0, .integral = integral, .derivative = 1.5});
   return drive;
 }
 
@@ -224,7 +228,7 @@ TEST(OracleDescribing, ARelayWithHysteresisSwingsWhereItsLagFits) {
 /// motion grows.
 TEST(OracleDescribing, ADeadBandHoldsAnUnstableLoopUpToACycle) {
   ReducedDrive drive = type_one_servo(1.0, 2.0);  // J = 2, F = 1
-  drive.controller = ErrorTransfer{{{4.0}, {0.5, 1.0}}};
+  drive.controller = at_load(TransferFunctionController{1.0, {4.0}, {0.5, 1.0}});
   drive.error_shape = {.begins = 0.2, .ends = 0.2, .inner_gain = 0.0, .offset = -0.2};
   const auto analysis = described(drive, DescribedPart::dead_band);
   ASSERT_EQ(analysis.cycles.size(), 1U);
@@ -250,7 +254,7 @@ TEST(OracleDescribing, SamplingIsADelayByHalfAPeriodMore) {
 
 TEST(OracleDescribing, TustinLeadsBackToTheControllerThatWasSampled) {
   ReducedDrive drive = type_one_servo(5.0, 1.0);
-  drive.controller = ProportionalIntegralDerivative{3.0, 2.0, 0.7, 0.05, 0.0};
+  drive.controller = at_load(PID{PIDTerms::PID, 3.0, 2.0, 0.7, 0.05, 0.0});
   const auto continuous = described(drive, DescribedPart::gap_load_held).loop;
   drive.sampling = Sampling{.period = 0.01, .delay = 0.0};
   const auto sampled = described(drive, DescribedPart::gap_load_held).loop;
@@ -279,7 +283,7 @@ TEST(OracleDescribing, ADelayInsideTheLoopIsNearlyOne) {
 TEST(OracleDescribing, SpeedByDifferencesIsLateByHalfAPeriod) {
   ReducedDrive drive = type_one_servo(5.0, 1.0);
   drive.sensing.load_share_of_speed = 1.0;
-  drive.controller = ProportionalDerivative{.proportional = 5.0, .derivative = 2.0};
+  drive.controller = at_load(PID{.terms = PIDTerms::PD, .proportional = 5.0, .derivative = 2.0});
   drive.sampling = Sampling{.period = 0.04, .speed_by_differences = true};
   const auto loop = described(drive, DescribedPart::gap_load_held).loop;
   const double frequency = 2.0;

@@ -9,6 +9,7 @@
 
 #include "base/extent.hpp"
 #include "base/seeded_draws.hpp"
+#include "controllers.hpp"
 #include "gearlash/motion.hpp"
 #include "model/reduced_drive.hpp"
 
@@ -21,7 +22,7 @@ drive::ReducedDrive dry_drive() {
   drive.motor = {.inertia = 1.0, .friction = {.viscous = 1.0, .coulomb = 0.3, .breakaway = 0.3}};
   drive.load = {.inertia = 2.0, .friction = {.viscous = 0.1, .coulomb = 0.05, .breakaway = 0.1}};
   drive.backlash = 0.2;
-  drive.controller = drive::ProportionalDerivative{.proportional = 10.0, .derivative = 1.0};
+  drive.controller = at_load(PID{.terms = PIDTerms::PD, .proportional = 10.0, .derivative = 1.0});
   return drive;
 }
 
@@ -78,7 +79,7 @@ TEST(ComputedRest, OfCompliantFacesGivesWay) {
 TEST(ComputedRest, OfAnIntegratorIsItsReading) {
   drive::ReducedDrive drive = dry_drive();
   drive.reference = 0.5;
-  drive.controller = drive::ProportionalIntegralDerivative{.proportional = 10.0, .integral = 3.0};
+  drive.controller = at_load(PID{.terms = PIDTerms::PID, .proportional = 10.0, .integral = 3.0});
   expect_near(rest_of(drive)->load, 0.0, 0.0);
   drive.sensing.resolution = 0.02;  // 0.5 is a whole number of steps
   expect_near(rest_of(drive)->load, -0.01, 0.01);
@@ -91,8 +92,9 @@ TEST(ComputedRest, OfAnIntegratorIsItsReferenceWithoutRounding) {
   for (int i = 0; i < 1000; ++i) {
     const double reference = 0.001 * i;
     drive.reference = reference;
-    drive.controller = drive::ProportionalIntegralDerivative{.proportional = 10.0 + reference,
-                                                             .integral = 3.0 / (1.0 + reference)};
+    drive.controller = at_load(PID{.terms = PIDTerms::PID,
+                                   .proportional = 10.0 + reference,
+                                   .integral = 3.0 / (1.0 + reference)});
     const auto rest = rest_of(drive);
     ASSERT_TRUE(rest) << reference;
     EXPECT_EQ(rest->load.low, 0.0) << reference;
@@ -105,7 +107,7 @@ TEST(ComputedRest, OfAnEncoderEndsAtTheLastStepThatFrictionHolds) {
   drive::ReducedDrive drive = dry_drive();
   drive.sensing.resolution = 0.03;
   expect_near(rest_of(drive)->load, -0.045, 0.045);
-  drive.sampling = drive::Sampling{.period = 1e-3};
+  drive.sampling = Sampling{.period = 1e-3};
   expect_near(rest_of(drive)->load, -0.045, 0.045);
 }
 
@@ -125,7 +127,7 @@ TEST(ComputedRest, IsInPiecesWhereTheTorqueIsLimited) {
   drive.motor.friction = {.viscous = 0.1, .coulomb = 0.1, .breakaway = 0.1};
   drive.load.friction = {.viscous = 0.1};
   drive.gravity.stiffness = -2.0;
-  drive.controller = drive::ProportionalDerivative{.proportional = 20.0, .derivative = 2.0};
+  drive.controller = at_load(PID{.terms = PIDTerms::PD, .proportional = 20.0, .derivative = 2.0});
   ASSERT_EQ(computed_rest(drive).size(), 1U);
   drive.torque_limit = 2.0;
   const std::vector<RestPiece> pieces = computed_rest(drive);
@@ -152,11 +154,13 @@ TEST(ComputedRest, IsWhereAnIntegralWindsUpBehindALimit) {
   drive.gravity.stiffness = 4.0;
   drive.torque_limit = 1.0;
   for (const double tracking_time : {0.0, 0.2}) {
-    drive.controller = drive::ProportionalIntegralDerivative{
-        .proportional = 10.0, .integral = 3.0, .tracking_time = tracking_time};
+    drive.controller = at_load(PID{.terms = PIDTerms::PID,
+                                   .proportional = 10.0,
+                                   .integral = 3.0,
+                                   .tracking_time = tracking_time});
     for (const bool is_sampled : {false, true}) {
       drive.sampling.reset();
-      if (is_sampled) drive.sampling = drive::Sampling{.period = 0.01};
+      if (is_sampled) drive.sampling = Sampling{.period = 0.01};
       ASSERT_TRUE(rest_of(drive));
       EXPECT_EQ(rest_of(drive)->kind, RestKind::torque_limit);
       EXPECT_EQ(rest_of(drive)->side, -1.0);
@@ -184,7 +188,7 @@ TEST(ComputedRest, OfADeadBandIsAPieceOfItsOwn) {
 /// A relay of 1 N m moves what 0.4 N m hold, and one of 0.3 N m does not.
 TEST(ComputedRest, OfARelayIsWhereItIsOff) {
   drive::ReducedDrive drive = dry_drive();
-  drive.controller = drive::ProportionalDerivative{.proportional = 1.0};
+  drive.controller = at_load(PID{.proportional = 1.0});
   drive.error_shape = {.begins = 0.2,
                        .ends = 0.1,
                        .inner_gain = 0.0,

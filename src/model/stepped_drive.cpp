@@ -1,0 +1,159 @@
+#include "model/stepped_drive.hpp"
+
+#include <utility>
+
+#include "base/number.hpp"
+#include "numeric/linear_algebra.hpp"
+
+namespace gearlash {
+namespace {
+
+/// The plant after a time under one torque: rows for the states before, and the torque.
+std::vector<std::vector<Interval>> passed(const LinearSystem<Interval>& plant,
+                                          const Interval& time) {
+  LinearPassage over = passage(flow_of(plant), {plant.column(LinearInput::torque)}, time);
+  for (std::size_t i = 0; i < plant.size(); ++i) {
+    over.flow.rows[i].push_back(over.of_inputs[0][i]);
+  }
+  return std::move(over.flow.rows);
+}
+std::vector<std::vector<double>> passed(const LinearSystem<double>& plant, double time) {
+  const auto size = static_cast<Eigen::Index>(plant.size());
+  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(size + 1, size + 1);
+  whole.topLeftCorner(size, size) = time * flow_of(plant);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    whole(i, size) = time * plant.slopes[static_cast<std::size_t>(i)][LinearInput::torque];
+  }
+  const Eigen::MatrixXd over = exponential(whole);
+  std::vector<std::vector<double>> rows;
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const Eigen::RowVectorXd row = over.row(i);
+    rows.emplace_back(row.begin(), row.end());
+  }
+  return rows;
+}
+
+template <class Number>
+class Stepping {
+ public:
+  using Form = LinearForm<Number>;
+
+  Stepping(const LinearDrive<Number>& drive, TorqueInput torque, int parts)
+      : drive_(drive),
+        plant_(drive.plant()),
+        last_counted_(plant_.size() + drive.order()),
+        queue_(last_counted_ + (drive.counts ? 1 : 0)),
+        size_(queue_ + drive.holds.front().age),
+        asked_(worked_out(drive.controller.output, drive.controller.direct)),
+        now_(asked_),
+        parts_(parts) {
+    if (torque == TorqueInput::requested) return;
+    now_ = combination<Number>({}, {}, size_);
+    now_[LinearInput::torque] = Number(1.0);
+  }
+
+  SteppedDrive<Number> run() {
+    std::vector<Form> states;
+    for (std::size_t i = 0; i < plant_.size(); ++i) states.push_back(state(i));
+    for (const HeldTorqueOf<Number>& hold : drive_.holds) {
+      pass(hold, hold.age == 0 ? now_ : state(queue_ + hold.age - 1), states);
+    }
+    const drive::LinearControllerOf<Number>& controller = drive_.controller;
+    for (std::size_t i = 0; i < controller.order(); ++i) {
+      states.push_back(worked_out(controller.state_matrix[i], controller.input_matrix[i]));
+    }
+    if (drive_.counts) {
+      states.push_back(of_tick(plant_.counted));
+      states.back()[LinearInput::speed_reading] = Number(1.0);
+    }
+    for (std::size_t i = queue_; i < size_; ++i)
+      states.push_back(i == queue_ ? now_ : state(i - 1));
+    stepped_.last_counted = last_counted_;
+    stepped_.step.slopes = std::move(states);
+    stepped_.step.load = of_tick(plant_.load);
+    stepped_.step.effort = asked_;
+    return std::move(stepped_);
+  }
+
+ private:
+  Form state(std::size_t index) const { return state_form<Number>(size_, index); }
+  /// A number of the plant among all that are kept.
+  Form of_tick(Form of_plant) const {
+    of_plant.of_state.resize(size_, Number(0.0));
+    return of_plant;
+  }
+  /// From a tachometer, or from the difference to the last position.
+  Form sensed_speed() const {
+    if (!drive_.counts) return of_tick(plant_.speed);
+    Form change = of_tick(plant_.counted);
+    change[LinearInput::speed_reading] = Number(1.0);
+    change.of_state[last_counted_] = Number(-1.0);
+    return Number(1.0) / drive_.period * std::move(change);
+  }
+  Form worked_out(const std::vector<Number>& of_state, const std::vector<Number>& of_inputs) const {
+    return drive_.worked_out(of_state, of_inputs, of_tick(plant_.position), sensed_speed(),
+                             plant_.size());
+  }
+
+  /// The plant over a hold with one torque.
+  void pass(const HeldTorqueOf<Number>& hold, const Form& torque, std::vector<Form>& states) {
+    const Number length =
+        not_negative(hold.until - hold.from) / Number(static_cast<double>(parts_));
+    const std::vector<std::vector<Number>> over = passed(plant_, length);
+    for (int i = 0; i < parts_; ++i) {
+      std::vector<Form> acting = states;
+      acting.push_back(torque);
+      std::vector<Form> slopes;
+      std::vector<Form> next;
+      for (std::size_t k = 0; k < plant_.size(); ++k) {
+        std::vector<Number> slope = plant_.slopes[k].of_state;
+        slope.push_back(plant_.slopes[k][LinearInput::torque]);
+        slopes.push_back(combination(slope, acting, size_));
+        next.push_back(combination(over[k], acting, size_));
+      }
+      stepped_.parts.push_back({.from = hold.from + Number(static_cast<double>(i)) * length,
+                                .length = length,
+                                .states = std::move(states),
+                                .slopes = std::move(slopes),
+                                .ends = {},
+                                .torque = torque});
+      states = std::move(next);
+    }
+    stepped_.parts.back().ends = states;
+  }
+
+  const LinearDrive<Number>& drive_;
+  LinearSystem<Number> plant_;
+  std::size_t last_counted_;
+  std::size_t queue_;  ///< torques that wait
+  std::size_t size_;
+  Form asked_;  ///< torque worked out at the tick
+  Form now_;    ///< that which acts
+  int parts_;
+  SteppedDrive<Number> stepped_{};
+};
+
+}  // namespace
+
+template <class Number>
+LinearForm<Number> combination(const std::vector<Number>& row,
+                               const std::vector<LinearForm<Number>>& forms, std::size_t size) {
+  LinearForm<Number> form{std::vector<Number>(size, Number(0.0)), {}};
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (!is_exactly(row[i], 0.0)) form = std::move(form) + row[i] * forms[i];
+  }
+  return form;
+}
+
+template <class Number>
+SteppedDrive<Number> stepped_drive(const LinearDrive<Number>& drive, TorqueInput torque,
+                                   int parts) {
+  return Stepping<Number>(drive, torque, parts).run();
+}
+
+template LinearForm<Interval> combination(const std::vector<Interval>&,
+                                          const std::vector<LinearForm<Interval>>&, std::size_t);
+template SteppedDrive<double> stepped_drive(const LinearDrive<double>&, TorqueInput, int);
+template SteppedDrive<Interval> stepped_drive(const LinearDrive<Interval>&, TorqueInput, int);
+
+}  // namespace gearlash
