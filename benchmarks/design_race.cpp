@@ -60,7 +60,7 @@ Line enter(const char* name, double things, const Work& work) {
 }  // namespace
 
 ReportPart enter_design_race() {
-  const ChangeableDrive drive(sample_drive());
+  const Drive drive = sample_drive();
   const TolerancedDrive pieces = toleranced();
   const auto search = [drive](std::string_view parameter, bool no_hunting) {
     return feasible_values(drive, parameter, target_of(no_hunting)).intervals.size();
@@ -77,9 +77,9 @@ ReportPart enter_design_race() {
   lines.push_back(enter("sensitivities by nine parameters, drive_sensitivity()", 1.0,
                         [] { return *drive_sensitivity(sample_drive()).slope(0, 0); }));
   lines.push_back(enter("certified search of the gain for no hunting, feasible_values()", 1.0,
-                        [search] { return search("error_gain", true); }));
+                        [search] { return search("controller.proportional", true); }));
   lines.push_back(enter("certified search of the gain for an amplitude, feasible_values()", 1.0,
-                        [search] { return search("error_gain", false); }));
+                        [search] { return search("controller.proportional", false); }));
   lines.push_back(enter("margins of all parameters, hunting_margin()", 1.0,
                         [drive] { return hunting_margin(drive).overall->change->length(); }));
   return [lines](const FastestTimes& times) {

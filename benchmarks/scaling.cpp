@@ -34,8 +34,7 @@ Entry enter(const std::string& name, const Grid& grid, const Workers& how) {
       title.c_str(),
       [=](benchmark::State& state) {
         for (auto _ : state) {
-          benchmark::DoNotOptimize(
-              evaluate(grid, points, 0, grid.size(), columns_of(*table), no_progress(), how));
+          benchmark::DoNotOptimize(evaluate(family, grid, 0, *table, no_progress(), how));
         }
       })
       ->Unit(benchmark::kMillisecond)

@@ -19,7 +19,7 @@ std::vector<NormalizedServo> servos_of(const Grid& grid) {
   std::vector<NormalizedServo> servos;
   const Family family(grid);
   for (std::size_t i = 0; i < grid.size(); ++i) {
-    servos.push_back(points.normal_form_at(values_at(grid, i)));
+    servos.push_back(family.normal_form_at(values_at(grid, i)));
   }
   return servos;
 }

@@ -426,7 +426,7 @@ TEST(EdgeDriveFile, ADelayOfAHundredPeriodsIsOneInSpiteOfRounding) {
 
 TEST(EdgeDriveFile, TolerancesAreCheckedWhateverIsAsked) {
   EXPECT_THAT(refusals_with({"motor.inertia", "2 kg cm2 ± 1000 %"}),
-              ElementsAre(HasSubstr("motor.inertia = 2 kg cm2 ± 1000 %: must be")));
+              ElementsAre(HasSubstr("motor.inertia = 2 kg cm2 ± 1000 %: must not fall below zero")));
   EXPECT_THAT(refusals_with({"motor.inertia", "2 kg cm2 ± 10 %"}), IsEmpty());
 }
 
