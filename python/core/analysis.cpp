@@ -5,6 +5,7 @@
 #include <complex>
 
 #include "arrays.hpp"
+#include "base/range_check.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/comparison.hpp"
 #include "gearlash/grid.hpp"
@@ -89,6 +90,12 @@ py::tuple compared(const std::vector<std::pair<std::string, py::object>>& named,
 
 /// Gains of the gap that inertia drives.
 py::array_t<std::complex<double>> gains(double gap, const Numbers& amplitudes) {
+  RangeCheck check;
+  check.not_negative("gap", gap, "rad");
+  for (py::ssize_t i = 0; i < amplitudes.size(); ++i) {
+    check.positive("amplitude", amplitudes.data()[i], "rad");
+  }
+  require_none(check.faults());
   std::vector<std::complex<double>> list;
   for (py::ssize_t i = 0; i < amplitudes.size(); ++i) {
     list.push_back(describing_gain(InertiaControlledBacklash{.gap = gap}, amplitudes.data()[i]));

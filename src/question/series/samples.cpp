@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "base/progress_part.hpp"
-
 namespace gearlash::detail {
 namespace {
 
@@ -96,43 +94,33 @@ SampleResult SampleAnswers::result_of(const Answer* answer) const {
 
 bool SampleAnswers::fill(const FamilyRows& rows, std::span<SampleResult> results,
                          Progress& progress) const {
-  const TakeRow take = [&](std::size_t row, const Answer* answer) {
-    results[row] = result_of(answer);
-  };
-  if (!one_by_one_) return !evaluate(family_, rows, {.take = take}, progress, workers_).stopped;
-  constexpr std::size_t most = 1024;  // of which the order is sought at a time
-  for (std::size_t first = 0; first < rows.count; first += most) {
-    const std::size_t count = std::min(most, rows.count - first);
-    const auto all = static_cast<double>(rows.count);
-    ProgressPart part(progress, static_cast<double>(first) / all,
-                      static_cast<double>(first + count) / all);
-    std::vector<double> values(count * family_.width());
-    rows.fill(first, values);
-    if (!fill_one_by_one(values, results.subspan(first, count), part)) return false;
+  if (!one_by_one_) {
+    const TakeRow take = [&](std::size_t row, const Answer* answer) {
+      results[row] = result_of(answer);
+    };
+    return !evaluate(family_, rows, {.take = take}, progress, workers_).stopped;
   }
-  return true;
-}
-
-bool SampleAnswers::fill_one_by_one(std::span<const double> values, std::span<SampleResult> results,
-                                    Progress& progress) const {
-  constexpr std::size_t run = 8;
   const std::size_t width = family_.width();
-  const std::vector<std::size_t> order = chain_of(values, results.size(), widths_);
+  std::vector<std::size_t> places(rows.count);  // of each row of a run, before it was ordered
+  const auto fill_run = [&](std::size_t first, std::span<double> values) {
+    const std::size_t count = std::min(run_of_samples, rows.count - first);
+    std::vector<double> unordered(values.size());
+    rows.fill(first, unordered);
+    const std::vector<std::size_t> order = chain_of(unordered, count, widths_);
+    for (std::size_t i = 0; i < count; ++i) {
+      places[first + i] = first + order[i];
+      std::copy_n(unordered.begin() + static_cast<std::ptrdiff_t>(order[i] * width), width,
+                  values.begin() + static_cast<std::ptrdiff_t>(i * width));
+    }
+  };
   AskedOfRows asked{.take = [&](std::size_t row,
-                                const Answer* answer) { results[order[row]] = result_of(answer); },
+                                const Answer* answer) { results[places[row]] = result_of(answer); },
                     .wanted = wanted_for(target_, family_.base()),
                     .one_by_one = true};
   asked.wanted.borders = true;  // of each sample the amplitude counts
-  const FamilyRows rows{.count = results.size(),
-                        .fill =
-                            [&](std::size_t first, std::span<double> part) {
-                              for (std::size_t i = 0; i < part.size(); ++i) {
-                                part[i] = values[order[first + i / width] * width + i % width];
-                              }
-                            },
-                        .line = results.size(),
-                        .run = run};
-  return !evaluate(family_, rows, asked, progress, workers_).stopped;
+  const FamilyRows in_runs{
+      .count = rows.count, .fill = fill_run, .line = run_of_samples, .run = run_of_samples};
+  return !evaluate(family_, in_runs, asked, progress, workers_).stopped;
 }
 
 SampleResults SampleAnswers::of(std::span<const double> values, Progress& progress) const {

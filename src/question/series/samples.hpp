@@ -48,6 +48,10 @@ struct SampleResult {
 };
 using SampleResults = std::vector<SampleResult>;
 
+/// The longest run of samples of which only the ends are certain to be analysed afresh. Each begins
+/// at a multiple of it.
+inline constexpr std::size_t run_of_samples = 8;
+
 /// What drives of a series do.
 class SampleAnswers {
  public:
@@ -56,9 +60,8 @@ class SampleAnswers {
   SampleAnswers(const TolerancedDrive& drive, const Target& target, Quantity amplitude,
                 const Workers& workers);
 
-  /// Whether each drive is analysed by itself. Then drives that differ least are followed from one
-  /// to the next, where the ends of a run of eight, which are analysed afresh, are alike
-  /// (search_run()).
+  /// Whether each drive is analysed by itself. Those of a run are then followed from one to the
+  /// next, where its ends, which are analysed afresh, are alike (search_run()).
   bool are_one_by_one() const { return one_by_one_; }
   /// Of as many rows as there are results. False: progress stopped it; rows left out are undecided.
   bool fill(const FamilyRows& rows, std::span<SampleResult> results, Progress& progress) const;
@@ -67,8 +70,6 @@ class SampleAnswers {
 
  private:
   SampleResult result_of(const Answer* answer) const;
-  bool fill_one_by_one(std::span<const double> values, std::span<SampleResult> results,
-                       Progress& progress) const;
 
   const Target& target_;
   Quantity amplitude_;
