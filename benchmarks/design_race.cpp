@@ -7,8 +7,8 @@
 
 #include "closed_form/limit_cycle.hpp"
 #include "question/change/derivatives.hpp"
-#include "question/change/feasible_values.hpp"
-#include "question/change/hunting_margin.hpp"
+#include "question/change/overall_margin.hpp"
+#include "question/change/values.hpp"
 #include "question/series/tolerance_study.hpp"
 
 namespace gearlash::benchmarks {
@@ -63,7 +63,7 @@ ReportPart enter_design_race() {
   const Drive drive = sample_drive();
   const TolerancedDrive pieces = toleranced();
   const auto search = [drive](std::string_view parameter, bool no_hunting) {
-    return feasible_values(drive, parameter, target_of(no_hunting)).intervals.size();
+    return values(drive, parameter, target_of(no_hunting)).intervals.size();
   };
   std::vector<Line> lines;
   lines.push_back(enter("one limit cycle, analyse_limit_cycles()", 1.0,
@@ -76,12 +76,12 @@ ReportPart enter_design_race() {
                         [pieces] { return study_tolerances(pieces, sampling).hunting.value; }));
   lines.push_back(enter("sensitivities by nine parameters, drive_sensitivity()", 1.0,
                         [] { return *drive_sensitivity(sample_drive()).slope(0, 0); }));
-  lines.push_back(enter("certified search of the gain for no hunting, feasible_values()", 1.0,
+  lines.push_back(enter("certified search of the gain for no hunting, values()", 1.0,
                         [search] { return search("controller.proportional", true); }));
-  lines.push_back(enter("certified search of the gain for an amplitude, feasible_values()", 1.0,
+  lines.push_back(enter("certified search of the gain for an amplitude, values()", 1.0,
                         [search] { return search("controller.proportional", false); }));
-  lines.push_back(enter("margins of all parameters, hunting_margin()", 1.0,
-                        [drive] { return hunting_margin(drive).overall->change->length(); }));
+  lines.push_back(enter("margins of all parameters, margins()", 1.0,
+                        [drive] { return margins(drive).overall->change->length(); }));
   return [lines](const FastestTimes& times) {
     const double yardstick = times.of(lines.front().title);
     if (std::isnan(yardstick)) return;

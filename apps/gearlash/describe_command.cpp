@@ -64,10 +64,10 @@ void check_part(const DescribeOptions& options, Faults& faults) {
 /// The analyses to draw: those of --part, else those of the first part in a loop.
 std::vector<drive::DescribingAnalysis> analyses_to_draw(
     const std::vector<drive::DescribingAnalysis>& analyses, const DescribeOptions& options) {
-  if (!options.part.empty()) return of_one_loop(analyses, part_of(options.part));
+  if (!options.part.empty()) return loop_analyses(analyses, part_of(options.part));
   const auto first = std::find_if(analyses.begin(), analyses.end(), drive::is_in_loop);
   return first == analyses.end() ? std::vector<drive::DescribingAnalysis>{}
-                                 : of_one_loop(analyses, first->part);
+                                 : loop_analyses(analyses, first->part);
 }
 
 const char* title_of(drive::DescribedPart part) {

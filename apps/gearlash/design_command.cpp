@@ -20,8 +20,8 @@
 #include "plot_option.hpp"
 #include "question/axis.hpp"
 #include "question/change/closed_form_line.hpp"
-#include "question/change/drive_with_value.hpp"
-#include "question/change/feasible_values.hpp"
+#include "question/change/design.hpp"
+#include "question/change/values.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 
@@ -149,26 +149,6 @@ std::vector<Axis> read_axes(const DesignOptions& options, const Drive& drive, Fa
   return axes;
 }
 
-/// Fills in the report as far as the work is not stopped. Returns how many axes were searched.
-std::size_t work_out(const std::vector<Axis>& axes, DesignReport& report, LimitedWork& work) {
-  TerminalProgress progress(work, "Design");
-  const Drive& drive = report.drive;
-  std::size_t known = 0;
-  report.present = with_value(drive, nullptr, 0.0, report.target, progress);
-  report.met = judge_present(drive, report.target, report.present.answer);
-  for (const Axis& axis : axes) {
-    ProgressPart part(progress, report.parameters.size(), axes.size());
-    DesignedParameter found{.values = feasible_values(drive, axis, report.target, part)};
-    for (const double value : found.values.nearest_of_each()) {
-      found.results.push_back(with_value(drive, &axis, value, report.target, part));
-    }
-    report.parameters.push_back(std::move(found));
-    if (!work.go_on()) break;
-    ++known;
-  }
-  return known;
-}
-
 ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
   Faults faults;
   check_options(options, faults);
@@ -193,7 +173,13 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
                       .target = target,
                       .angle = written->angle,
                       .provenance = provenance};
-  const std::size_t known = work_out(axes, report, work);
+  {
+    TerminalProgress progress(work, "Design");
+    report.design = design(drive, axes, target, progress);
+  }
+  const auto known = static_cast<std::size_t>(
+      std::count_if(report.design.parameters.begin(), report.design.parameters.end(),
+                    [](const DesignedParameter& one) { return !one.values.stopped; }));
   Extras extras;
   extras.print(options.format == "json" ? design_json(report) : design_text(report));
   const ExitStatus status = end_work(work, ExitStatus::done, unknown_text(known, axes.size()));

@@ -120,13 +120,13 @@ void add_changes(Result& result, const Drive& drive, const Changes& wanted, Limi
   const bool is_sound = !is_closed || faults(final_servo(drive)->drivetrain).empty();
   if (wanted.margins && is_sound) {
     TerminalProgress progress(work, "Margins");
-    result.report.margin = wanted.axes.empty() ? hunting_margin(drive, progress)
-                                               : hunting_margin(drive, wanted.axes, progress);
+    result.report.margin =
+        wanted.axes.empty() ? margins(drive, progress) : margins(drive, wanted.axes, progress);
   }
   if (!wanted.sensitivities) return;
   if (!is_closed) {
     TerminalProgress progress(work, "Sensitivities");
-    result.report.sensitivity = searched_derivatives(drive, result.analysis, progress);
+    result.report.sensitivity = orbit_derivatives(drive, result.analysis, progress);
   } else {
     result.report.sensitivity = is_sound ? drive_sensitivity(drive) : Jacobian{};
   }

@@ -157,14 +157,12 @@ struct FeasibleValues {
 /// which need no motion (the linear loop, a step, ceilings), are scanned within what the others
 /// permit: a condition more never loses a proof, a range or an interval. Throws InvalidInput for an
 /// unsound drive, for the faults of the axis and of the target.
-[[nodiscard]] FeasibleValues feasible_values(const Drive& drive, const Axis& axis,
-                                             const Target& target,
-                                             Progress& progress = no_progress());
+[[nodiscard]] FeasibleValues values(const Drive& drive, const Axis& axis, const Target& target,
+                                    Progress& progress = no_progress());
 
 /// The same over axis_to_search().
-[[nodiscard]] FeasibleValues feasible_values(const Drive& drive, std::string_view parameter,
-                                             const Target& target,
-                                             Progress& progress = no_progress());
+[[nodiscard]] FeasibleValues values(const Drive& drive, std::string_view parameter,
+                                    const Target& target, Progress& progress = no_progress());
 
 /// The range that a design searches: in closed form the ends of 0.001 to 1000 times the present
 /// value, of 0 to ten times critical damping for what only adds friction, or of 0 to 1 for a share,
@@ -274,10 +272,10 @@ struct HuntingMargin {
 /// seconds to minutes, because each value tried needs its own search for cycles. Other drives are
 /// searched, with some 30 verdicts for each parameter, which takes seconds to minutes too. Not to
 /// hunt is to keep always_at_rest(). Throws InvalidInput for an unsound drive.
-[[nodiscard]] HuntingMargin hunting_margin(const Drive& drive, Progress& progress = no_progress());
+[[nodiscard]] HuntingMargin margins(const Drive& drive, Progress& progress = no_progress());
 
 /// The same for the parameters of these axes alone, searched whatever the drive.
-[[nodiscard]] HuntingMargin hunting_margin(const Drive& drive, const std::vector<Axis>& axes,
-                                           Progress& progress = no_progress());
+[[nodiscard]] HuntingMargin margins(const Drive& drive, const std::vector<Axis>& axes,
+                                    Progress& progress = no_progress());
 
 }  // namespace gearlash

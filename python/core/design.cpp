@@ -33,7 +33,7 @@ py::object designed(py::handle drive, py::handle target, const py::object& param
     while (found.size() < axes.size()) {
       ProgressPart part(reports, found.size(), axes.size());
       if (!part.go_on(0.0)) break;
-      found.push_back(feasible_values(of, axes[found.size()], limits, part));
+      found.push_back(values(of, axes[found.size()], limits, part));
     }
     return found;
   });
@@ -44,7 +44,7 @@ py::object margin_of(py::handle drive, py::handle axes, const py::object& progre
   const Drive of = drive_of(drive);
   const auto list = from_python<std::vector<Axis>>(axes, "axes");
   return to_python(interruptible(progress, [&](Progress& reports) {
-    return list.empty() ? hunting_margin(of, reports) : hunting_margin(of, list, reports);
+    return list.empty() ? margins(of, reports) : margins(of, list, reports);
   }));
 }
 

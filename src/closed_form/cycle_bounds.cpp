@@ -49,21 +49,23 @@ struct KnownDrive {
 
 DriveBox box_between(const Drivetrain& low, const Drivetrain& high, const DataError& error) {
   const KnownDrive ends[] = {{low, error}, {high, error}};
-  const auto of_both = [&](auto quantity) { return hull(quantity(ends[0]), quantity(ends[1])); };
+  const auto sum_of_both = [&](auto quantity) {
+    return hull(quantity(ends[0]), quantity(ends[1]));
+  };
   using Drive = KnownDrive;
-  const Interval inertia = of_both([](const Drive& d) { return d.motor_inertia; }) +
-                           of_both([](const Drive& d) { return d.load_inertia; });
-  const Interval stiffness = of_both([](const Drive& d) { return d.stiffness; });
+  const Interval inertia = sum_of_both([](const Drive& d) { return d.motor_inertia; }) +
+                           sum_of_both([](const Drive& d) { return d.load_inertia; });
+  const Interval stiffness = sum_of_both([](const Drive& d) { return d.stiffness; });
   const Interval friction =
-      of_both([](const Drive& d) { return d.motor_friction + d.load_friction; });
+      sum_of_both([](const Drive& d) { return d.motor_friction + d.load_friction; });
   const Interval motor_rate =
-      of_both([](const Drive& d) { return Drive::rate(d.motor_friction, d.motor_inertia); });
+      sum_of_both([](const Drive& d) { return Drive::rate(d.motor_friction, d.motor_inertia); });
   const Interval load_rate =
-      of_both([](const Drive& d) { return Drive::rate(d.load_friction, d.load_inertia); });
+      sum_of_both([](const Drive& d) { return Drive::rate(d.load_friction, d.load_inertia); });
   const Interval motor_share =
-      of_both([](const Drive& d) { return Drive::share(d.motor_inertia, d.load_inertia); });
+      sum_of_both([](const Drive& d) { return Drive::share(d.motor_inertia, d.load_inertia); });
   const Interval load_share =
-      of_both([](const Drive& d) { return Drive::share(d.load_inertia, d.motor_inertia); });
+      sum_of_both([](const Drive& d) { return Drive::share(d.load_inertia, d.motor_inertia); });
   const Interval time_unit = sqrt(inertia) / sqrt(stiffness);
   const auto of_time = [&](const Interval& rate) {
     return std::isinf(rate.low) ? rate : rate * time_unit;
@@ -74,7 +76,7 @@ DriveBox box_between(const Drivetrain& low, const Drivetrain& high, const DataEr
                     .motor_rate = of_time(motor_rate).bounds(),
                     .load_rate = of_time(load_rate).bounds()},
           .time_unit = time_unit.bounds(),
-          .backlash = of_both([](const Drive& d) { return d.backlash; }).bounds()};
+          .backlash = sum_of_both([](const Drive& d) { return d.backlash; }).bounds()};
 }
 
 ServoBox box_of(const NormalizedServo& servo, Reading reading) {

@@ -140,12 +140,12 @@ struct DecayIntegrals {
 double size_of_terms(const GapFlight& flight, double time, const DecayIntegrals& decays) {
   const double load_speed = std::abs(flight.load_speed);
   const double gap_speed = std::abs(flight.gap_speed);
-  const double of_massless_motor = flight.coupling == 0.0 ? 2.0 * load_speed : 0.0;
+  const double massless_motor_flight = flight.coupling == 0.0 ? 2.0 * load_speed : 0.0;
   const double acceleration =
       std::abs(flight.motor_acceleration) + 2.0 * flight.motor_rate * (load_speed + gap_speed);
   const double deceleration =
-      std::abs(flight.load_deceleration) + flight.load_rate * of_massless_motor;
-  return time * (gap_speed + of_massless_motor +
+      std::abs(flight.load_deceleration) + flight.load_rate * massless_motor_flight;
+  return time * (gap_speed + massless_motor_flight +
                  time * (acceleration * decays.motor + deceleration * decays.load +
                          std::abs(flight.coupling) * time * decays.coupled));
 }

@@ -18,8 +18,8 @@ GapFlight over_massless_load(const ServoDynamics& dynamics, double load_position
 }
 
 /// A massless motor runs at v_M = −y/F_M: u̇ = −y/F_M − v, ü = (D − 1/F_M) v₀ e^{−Dt} (J_L = 1).
-GapFlight of_massless_motor(const ServoDynamics& dynamics, const GapState& state,
-                            double gap_speed) {
+GapFlight massless_motor_flight(const ServoDynamics& dynamics, const GapState& state,
+                                double gap_speed) {
   const double acceleration =
       (dynamics.load_rate - 1.0 / dynamics.motor_friction) * state.load_speed;
   return {.load_position = state.load_position,
@@ -55,7 +55,7 @@ GapFlight flight_from(const ServoDynamics& dynamics, const GapState& state) {
   }
   if (dynamics.massless_motor()) {
     const double driven_speed = -state.load_position / dynamics.motor_friction;
-    return of_massless_motor(dynamics, state, driven_speed - state.load_speed);
+    return massless_motor_flight(dynamics, state, driven_speed - state.load_speed);
   }
   return flight_of_two_masses(dynamics, state);
 }
@@ -68,7 +68,7 @@ GapFlight flight_from_separation(const ServoDynamics& dynamics, double load_posi
   if (dynamics.massless_load()) {
     return over_massless_load(dynamics, state.load_position, gap, 0.0);
   }
-  if (dynamics.massless_motor()) return of_massless_motor(dynamics, state, 0.0);
+  if (dynamics.massless_motor()) return massless_motor_flight(dynamics, state, 0.0);
   return clean_parting(dynamics, state.load_position, state.load_speed, gap);
 }
 

@@ -12,7 +12,7 @@
 #include "model/parameter_values.hpp"
 #include "model/reduced_drive.hpp"
 #include "question/axis.hpp"
-#include "question/change/feasible_values.hpp"
+#include "question/change/values.hpp"
 
 namespace gearlash {
 namespace {

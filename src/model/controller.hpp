@@ -89,7 +89,7 @@ LinearControllerOf<Interval> sampled_controller(const LinearControllerOf<Interva
 /// Of (r, y, v) ↦ x: what x receives of a reference and of a position at it. 0 where it knows their
 /// difference alone.
 template <class Number>
-Number of_both(const std::vector<Number>& row) {
+Number sum_of_both(const std::vector<Number>& row) {
   return is_of_difference(row) ? Number(0.0) : row[0] + row[1];
 }
 

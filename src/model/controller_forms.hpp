@@ -159,7 +159,7 @@ LinearControllerOf<Number> linear(const TransferFunctionController& function, co
 
 /// Columns for r, y and v, from a single column for the error.
 template <class Gain>
-auto of_three_inputs(const std::vector<double>& row, const Gain& gain) {
+auto row_of_three_inputs(const std::vector<double>& row, const Gain& gain) {
   auto result = numbers_of(row, gain);
   if (row.size() == 1) result = {result[0], -result[0], 0.0};
   return result;
@@ -174,10 +174,10 @@ LinearControllerOf<Number> linear(const StateSpaceController& system, const Gain
     result.state_matrix.push_back(numbers_of(row, gain));
   }
   for (const std::vector<double>& row : system.B) {
-    result.input_matrix.push_back(of_three_inputs(row, gain));
+    result.input_matrix.push_back(row_of_three_inputs(row, gain));
   }
   result.output = scaled<Number>(factor, numbers_of(system.C, gain));
-  result.direct = scaled<Number>(factor, of_three_inputs(system.D, gain));
+  result.direct = scaled<Number>(factor, row_of_three_inputs(system.D, gain));
   return result;
 }
 

@@ -53,7 +53,7 @@ double integral_time(double proportional, double integral) {
   return integral == 0.0 ? 0.0 : proportional / integral;
 }
 
-Conversion of_pid(const Drive& drive, PID pid, GainShaft shaft) {
+Conversion pid_conversion(const Drive& drive, PID pid, GainShaft shaft) {
   pid.terms = terms_of(pid.integral, pid.derivative);
   if (pid.integral == 0.0) pid.tracking_time = 0.0;
   Gains gains(drive);
@@ -64,7 +64,8 @@ Conversion of_pid(const Drive& drive, PID pid, GainShaft shaft) {
   return {{.law = pid, .shaft = shaft}, std::move(gains).list()};
 }
 
-Conversion of_cascade(const Drive& drive, const CascadeController& cascade, GainShaft shaft) {
+Conversion cascade_conversion(const Drive& drive, const CascadeController& cascade,
+                              GainShaft shaft) {
   Gains gains(drive);
   gains.add("position", cascade.position, "1/s", "1/s");
   gains.add_speed("speed", cascade.speed);
@@ -87,24 +88,24 @@ Conversion convert(const DynamixelX& registers, const Drive& drive) {
           .derivative_of_speed = true};
   pid.tracking_time =
       registers.tracking_time.value_or(integral_time(pid.proportional, pid.integral));
-  return of_pid(drive, pid, GainShaft::load);
+  return pid_conversion(drive, pid, GainShaft::load);
 }
 
 Conversion convert(const ODrive& registers, const Drive& drive) {
   constexpr double decay = 125e-6 / 0.01;  // s: a hundredth of the integral a sample, at the limit
-  return of_cascade(drive,
-                    {.position = registers.pos_gain,
-                     .speed = registers.vel_gain / turn,
-                     .speed_integral = registers.vel_integrator_gain / turn,
-                     .tracking_time = registers.tracking_time.value_or(decay)},
-                    counted_shaft(drive));
+  return cascade_conversion(drive,
+                            {.position = registers.pos_gain,
+                             .speed = registers.vel_gain / turn,
+                             .speed_integral = registers.vel_integrator_gain / turn,
+                             .tracking_time = registers.tracking_time.value_or(decay)},
+                            counted_shaft(drive));
 }
 
 Conversion convert(const Moteus& registers, const Drive& drive) {
   const double ratio = registers.rotor_to_output_ratio;
   const double counted = counted_shaft(drive) == GainShaft::motor ? ratio : 1.0;
   const double gain = ratio * counted / turn;
-  return of_pid(
+  return pid_conversion(
       drive,
       {.proportional = gain * registers.kp,
        .integral = gain * registers.ki,
@@ -116,14 +117,14 @@ Conversion convert(const Moteus& registers, const Drive& drive) {
 
 Conversion convert(const SimpleFOC& registers, const Drive& drive) {
   const double output = has_torque(drive) ? torque_constant_of(drive.motor).value_or(1.0) : 1.0;
-  return of_cascade(drive,
-                    {.position = registers.angle_p,
-                     .speed = output * registers.velocity_p,
-                     .speed_integral = output * registers.velocity_i,
-                     .tracking_time = registers.tracking_time.value_or(
-                         integral_time(registers.velocity_p, registers.velocity_i)),
-                     .filter = registers.velocity_filter},
-                    counted_shaft(drive));
+  return cascade_conversion(drive,
+                            {.position = registers.angle_p,
+                             .speed = output * registers.velocity_p,
+                             .speed_integral = output * registers.velocity_i,
+                             .tracking_time = registers.tracking_time.value_or(
+                                 integral_time(registers.velocity_p, registers.velocity_i)),
+                             .filter = registers.velocity_filter},
+                            counted_shaft(drive));
 }
 
 constexpr char of_kind[] = "controller.kind";

@@ -195,7 +195,7 @@ LinearDrive<Number> made_of(const ReducedDrive& form, const drive::ReducedDriveO
   linear.controller = controller;
   // Of rounded numbers it is not known that two are opposite.
   const auto combine = [&](Vector<Number>& row) {
-    row[0] = form.has_rounded_lists ? row[0] + row[1] : drive::of_both(row);
+    row[0] = form.has_rounded_lists ? row[0] + row[1] : drive::sum_of_both(row);
   };
   combine(linear.controller.direct);
   for (Vector<Number>& row : linear.controller.input_matrix) combine(row);

@@ -35,29 +35,29 @@ Value at(const Answer& answer) {
 
 /// Likewise, of the largest cycle that is not unstable.
 template <auto... members>
-Value of_cycle(const Answer& answer) {
+Value cycle_value(const Answer& answer) {
   return value_of(follow<members...>(answer.largest_stable()));
 }
 
 /// Of the motion seen in practice: that cycle, or else an irregular motion.
 template <auto member, auto member_of_irregular>
-Value of_motion(const Answer& answer) {
+Value motion_value(const Answer& answer) {
   if (answer.largest_stable() != nullptr || answer.irregular.empty()) {
-    return of_cycle<member>(answer);
+    return cycle_value<member>(answer);
   }
   return value_of(follow<member_of_irregular>(&answer.irregular.front()));
 }
 
 /// The same, and 0 without a motion if the drive comes to rest.
 template <auto member, auto member_of_irregular>
-Value of_motion_or_rest(const Answer& answer) {
+Value motion_or_rest_value(const Answer& answer) {
   const bool is_quiet =
       answer.verdict == Verdict::cannot_hunt || answer.verdict == Verdict::comes_to_rest;
   if (is_quiet && answer.largest_stable() == nullptr && answer.irregular.empty()) return 0.0;
-  return of_motion<member, member_of_irregular>(answer);
+  return motion_value<member, member_of_irregular>(answer);
 }
 
-constexpr auto period = of_motion<&Cycle::period, &IrregularMotion::mean_period>;
+constexpr auto period = motion_value<&Cycle::period, &IrregularMotion::mean_period>;
 
 Value frequency(const Answer& answer) {
   const Value seconds = period(answer);
@@ -101,35 +101,36 @@ constexpr std::array entries = {
           "growth at rest: the servo hunts when it exceeds 1", at<&Answer::growth_at_rest>),
     entry(Quantity::amplitude, "amplitude", radian, motion,
           "amplitude of the load, half peak-to-peak",
-          of_motion_or_rest<&Cycle::amplitude, &IrregularMotion::amplitude>, "size"),
+          motion_or_rest_value<&Cycle::amplitude, &IrregularMotion::amplitude>, "size"),
     entry(Quantity::motor_amplitude, "motor_amplitude", radian, motion,
           "amplitude of the motor at the load's shaft, half peak-to-peak",
-          of_motion_or_rest<&Cycle::motor_amplitude, &IrregularMotion::motor_amplitude>,
+          motion_or_rest_value<&Cycle::motor_amplitude, &IrregularMotion::motor_amplitude>,
           "motor_size"),
     entry(Quantity::center, "center", radian, motion,
           "mean of the load's extremes, from the reference",
-          of_motion<&Cycle::center, &IrregularMotion::center>),
+          motion_value<&Cycle::center, &IrregularMotion::center>),
     entry(Quantity::period, "period", second, motion, "period of the limit cycle", period),
     entry(Quantity::frequency, "frequency", hertz, motion, "frequency of the limit cycle",
           frequency),
     entry(Quantity::multiplier, "multiplier", one, motion, "Floquet multiplier over a period",
-          of_cycle<&Cycle::multiplier>),
+          cycle_value<&Cycle::multiplier>),
     entry(Quantity::impact_speed, "impact_speed", radian_per_second, motion,
-          "relative speed before the hardest impact", of_cycle<&Cycle::impact_speed>),
+          "relative speed before the hardest impact", cycle_value<&Cycle::impact_speed>),
     entry(Quantity::engaged_time, "engaged_time", second, motion,
-          "time per period with the faces engaged", of_cycle<&Cycle::engaged_time>),
+          "time per period with the faces engaged", cycle_value<&Cycle::engaged_time>),
     entry(Quantity::separated_time, "separated_time", second, motion,
-          "time per period with the faces apart", of_cycle<&Cycle::separated_time>),
+          "time per period with the faces apart", cycle_value<&Cycle::separated_time>),
     entry(Quantity::motor_friction_loss, "motor_friction_loss", joule, motion,
           "energy lost in the motor's friction over a period",
-          of_cycle<&Cycle::energy, &EnergyLost::motor_friction>),
+          cycle_value<&Cycle::energy, &EnergyLost::motor_friction>),
     entry(Quantity::load_friction_loss, "load_friction_loss", joule, motion,
           "energy lost in the load's friction over a period",
-          of_cycle<&Cycle::energy, &EnergyLost::load_friction>),
+          cycle_value<&Cycle::energy, &EnergyLost::load_friction>),
     entry(Quantity::impact_loss, "impact_loss", joule, motion,
-          "energy lost at impacts over a period", of_cycle<&Cycle::energy, &EnergyLost::impacts>),
+          "energy lost at impacts over a period",
+          cycle_value<&Cycle::energy, &EnergyLost::impacts>),
     entry(Quantity::residual, "residual", one, motion,
-          "relative mismatch of the state after one cycle", of_cycle<&Cycle::residual>),
+          "relative mismatch of the state after one cycle", cycle_value<&Cycle::residual>),
     entry(Quantity::static_error, "static_error", radian, answer,
           "largest error at rest that was found, reference minus load", static_error),
     entry(Quantity::time_to_rest, "time_to_rest", second, answer,

@@ -63,14 +63,14 @@ class Stepping {
       states.push_back(worked_out(controller.state_matrix[i], controller.input_matrix[i]));
     }
     if (drive_.counts) {
-      states.push_back(of_tick(plant_.counted));
+      states.push_back(tick_form(plant_.counted));
       states.back()[LinearInput::speed_reading] = Number(1.0);
     }
     for (std::size_t i = queue_; i < size_; ++i)
       states.push_back(i == queue_ ? now_ : state(i - 1));
     stepped_.last_counted = last_counted_;
     stepped_.step.slopes = std::move(states);
-    stepped_.step.load = of_tick(plant_.load);
+    stepped_.step.load = tick_form(plant_.load);
     stepped_.step.effort = asked_;
     return std::move(stepped_);
   }
@@ -78,20 +78,20 @@ class Stepping {
  private:
   Form state(std::size_t index) const { return state_form<Number>(size_, index); }
   /// A number of the plant among all that are kept.
-  Form of_tick(Form of_plant) const {
+  Form tick_form(Form of_plant) const {
     of_plant.of_state.resize(size_, Number(0.0));
     return of_plant;
   }
   /// From a tachometer, or from the difference to the last position.
   Form sensed_speed() const {
-    if (!drive_.counts) return of_tick(plant_.speed);
-    Form change = of_tick(plant_.counted);
+    if (!drive_.counts) return tick_form(plant_.speed);
+    Form change = tick_form(plant_.counted);
     change[LinearInput::speed_reading] = Number(1.0);
     change.of_state[last_counted_] = Number(-1.0);
     return Number(1.0) / drive_.period * std::move(change);
   }
   Form worked_out(const std::vector<Number>& of_state, const std::vector<Number>& of_inputs) const {
-    return drive_.worked_out(of_state, of_inputs, of_tick(plant_.position), sensed_speed(),
+    return drive_.worked_out(of_state, of_inputs, tick_form(plant_.position), sensed_speed(),
                              plant_.size());
   }
 

@@ -80,7 +80,7 @@ std::string undecided_text(const Drive& drive, const HuntingMargin& margin,
 }
 
 /// What the search leaves open.
-std::string searched_text(const Drive& drive, const HuntingMargin& margin, const AngleUnit& angle) {
+std::string search_text(const Drive& drive, const HuntingMargin& margin, const AngleUnit& angle) {
   std::string grids;
   double located = 0.0;
   for (const ParameterMargin& one : margin.parameters) {
@@ -223,7 +223,7 @@ std::string margin_text(const Drive& drive, const HuntingMargin& margin, const A
   };
   if (is_closed) add(overall_text(*margin.overall, margin.hunts));
   add(scanned_text(margin));
-  add(searched_text(drive, margin, angle));
+  add(search_text(drive, margin, angle));
   if (margin.stopped) add("The search was stopped: what it did not reach is left out.");
   return what + ", one parameter at a time" +
          (rows.size() == 1 ? nowhere : "\n" + table_text(rows)) +

@@ -26,7 +26,7 @@ constexpr double degree = std::numbers::pi / 180.0;
 /// What a change costs, in the order of names_of_costs(): of a closed form the figures of its
 /// normal form, relative to the present ones.
 std::vector<std::string> names_of_costs(const DesignReport& report) {
-  if (report.present.answer.normal_form) return {"ω_n", "ζ", "K"};
+  if (report.design.present.answer.normal_form) return {"ω_n", "ζ", "K"};
   return {"static error", "rise", "overshoot", "settles", "bandwidth", "phase margin"};
 }
 
@@ -37,7 +37,7 @@ std::string change_between(const std::optional<double>& before,
 }
 
 std::vector<std::string> costs_text(const DesignReport& report, const DriveWithValue& one) {
-  if (const auto& before = report.present.answer.normal_form) {
+  if (const auto& before = report.design.present.answer.normal_form) {
     const NormalFormNumbers after = one.answer.normal_form.value_or(NormalFormNumbers{});
     return {change_between(before->natural_frequency, after.natural_frequency),
             significant(after.damping, few_digits),
@@ -97,18 +97,18 @@ std::string table_of_results(const DesignReport& report) {
   std::vector<std::vector<std::string>> rows = {
       {"parameter", "now", "meets the target", "change", "result"}};
   for (std::string& name : names_of_costs(report)) rows.front().push_back(std::move(name));
-  for (const DesignedParameter& parameter : report.parameters) {
+  for (const DesignedParameter& parameter : report.design.parameters) {
     for (std::size_t i = 0; i < parameter.values.intervals.size(); ++i) {
       rows.push_back(row_text(report, parameter, i));
     }
   }
   if (rows.size() == 1) return "";
   const std::string costs =
-      report.present.answer.normal_form
+      report.design.present.answer.normal_form
           ? "ω_n, ζ and K show its cost"
           : "its result at the value nearest to the present one,\na step of the reference of " +
-                angle_text(report.present.answer.step.value_or(StepResponse{}).step, report.angle,
-                           few_digits) +
+                angle_text(report.design.present.answer.step.value_or(StepResponse{}).step,
+                           report.angle, few_digits) +
                 ", and the linear loop without the gap";
   return "One change by itself, other parameters fixed; " + costs + "\n" + table_text(rows) + "\n";
 }
@@ -138,7 +138,7 @@ std::string reason(const DesignReport& report, const DesignedParameter& paramete
 
 std::string reasons(const DesignReport& report) {
   std::string text;
-  for (const DesignedParameter& parameter : report.parameters) {
+  for (const DesignedParameter& parameter : report.design.parameters) {
     const FeasibleValues& values = parameter.values;
     if (!values.intervals.empty() || values.stopped) continue;
     text += "  " + values.parameter + ": " + reason(report, parameter) + "\n";
@@ -174,7 +174,7 @@ std::string border_text(const ParameterText& shown, const Border& border) {
 
 std::string borders_text(const DesignReport& report) {
   std::vector<std::vector<std::string>> rows;
-  for (const DesignedParameter& parameter : report.parameters) {
+  for (const DesignedParameter& parameter : report.design.parameters) {
     const ParameterText shown(report.drive, parameter.values.parameter, report.angle);
     for (const Border& border : parameter.values.borders) {
       rows.push_back(
@@ -196,7 +196,7 @@ bool is_worth_naming(const FeasibleValues& values, const Bounds& part) {
 std::string undecided_parts(const DesignReport& report, SearchKind kind) {
   constexpr std::size_t most_named = 4;
   std::string parts;
-  for (const DesignedParameter& parameter : report.parameters) {
+  for (const DesignedParameter& parameter : report.design.parameters) {
     const FeasibleValues& values = parameter.values;
     if (values.kind != kind) continue;
     const ParameterText shown(report.drive, values.parameter, report.angle);
@@ -213,7 +213,7 @@ std::string undecided_parts(const DesignReport& report, SearchKind kind) {
 /// What is proved of the intervals of a target on ceilings; empty for other targets.
 std::string proofs_text(const DesignReport& report) {
   std::string text;
-  for (const DesignedParameter& parameter : report.parameters) {
+  for (const DesignedParameter& parameter : report.design.parameters) {
     const FeasibleValues& values = parameter.values;
     const ParameterText shown(report.drive, values.parameter, report.angle);
     for (std::size_t i = 0; i < values.proofs.size(); ++i) {
@@ -264,7 +264,7 @@ bool is_empty_range(const FeasibleValues& values) {
 /// The parameters that were searched in this way: "load.friction, gearbox.ratio".
 std::string names_of(const DesignReport& report, SearchKind kind) {
   std::string names;
-  for (const DesignedParameter& parameter : report.parameters) {
+  for (const DesignedParameter& parameter : report.design.parameters) {
     const FeasibleValues& values = parameter.values;
     if (values.kind != kind || is_empty_range(values) || is_of_figures(report, values)) continue;
     names += (names.empty() ? "" : ", ") + parameter.values.parameter;
@@ -301,10 +301,10 @@ std::string scanned_text(const DesignReport& report) {
          open + ".";
 }
 
-std::string searched_text(const DesignReport& report) {
+std::string search_text(const DesignReport& report) {
   std::string grids;
   double located = 0.0;
-  for (const DesignedParameter& parameter : report.parameters) {
+  for (const DesignedParameter& parameter : report.design.parameters) {
     const FeasibleValues& values = parameter.values;
     if (values.kind != SearchKind::searched) continue;
     const ParameterText shown(report.drive, values.parameter, report.angle);
@@ -329,7 +329,7 @@ std::string searched_text(const DesignReport& report) {
 
 /// The conditions that were scanned within what the others permit: "bandwidth, overshoot".
 std::string within_text(const DesignReport& report) {
-  for (const DesignedParameter& parameter : report.parameters) {
+  for (const DesignedParameter& parameter : report.design.parameters) {
     const FeasibleValues& values = parameter.values;
     if (is_empty(values.searched_within)) continue;
     const std::string where = is_of_figures(report, values) ? "" : " within these";
@@ -347,9 +347,9 @@ std::string certainty(const DesignReport& report) {
   };
   add(certified_text(report));
   add(scanned_text(report));
-  add(searched_text(report));
+  add(search_text(report));
   add(within_text(report));
-  for (const DesignedParameter& parameter : report.parameters) {
+  for (const DesignedParameter& parameter : report.design.parameters) {
     if (!parameter.values.stopped) continue;
     add("The search over " + parameter.values.parameter +
         " was stopped: the values that it did not reach are undecided.");
@@ -451,9 +451,9 @@ Json json_parameter(const Drive& drive, const DesignedParameter& parameter) {
 }  // namespace
 
 std::string design_text(const DesignReport& report) {
-  const Answer& present = report.present.answer;
-  const char* met = report.met == Judgement::all    ? "met"
-                    : report.met == Judgement::none ? "not met"
+  const Answer& present = report.design.present.answer;
+  const char* met = report.design.met == Judgement::all    ? "met"
+                    : report.design.met == Judgement::none ? "not met"
                     : is_known(report.target, present)
                         ? "on the limit of the target, to within rounding"
                         : "undecided";
@@ -464,15 +464,16 @@ std::string design_text(const DesignReport& report) {
 }
 
 std::string design_json(const DesignReport& report) {
-  const Answer& present = report.present.answer;
+  const Answer& present = report.design.present.answer;
   Json json = json_head("design", report.drive, report.provenance);
   json["target"] = report.target_text;
-  json["met"] = report.met == Judgement::some ? Json(nullptr) : Json(report.met == Judgement::all);
+  json["met"] = report.design.met == Judgement::some ? Json(nullptr)
+                                                     : Json(report.design.met == Judgement::all);
   json["present"] = {{"performance", json_performance(present)},
                      {"normal_form", json_form(present.normal_form)},
                      {"loop", json_linear_loop(present.loop)},
                      {"response", json_response(present)}};
-  json["answers"] = json_list(report.parameters, [&](const DesignedParameter& parameter) {
+  json["answers"] = json_list(report.design.parameters, [&](const DesignedParameter& parameter) {
     return json_parameter(report.drive, parameter);
   });
   return json.dump(2) + "\n";

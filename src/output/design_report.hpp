@@ -6,23 +6,16 @@
 
 #include "gearlash/design.hpp"
 #include "output/report_units.hpp"
-#include "question/change/drive_with_value.hpp"
+#include "question/change/design.hpp"
 #include "question/change/target.hpp"
 
 namespace gearlash {
-
-struct DesignedParameter {
-  FeasibleValues values{};
-  std::vector<DriveWithValue> results{};  ///< with the values of nearest_of_each()
-};
 
 struct DesignReport {
   Drive drive{};
   std::string target_text{};  ///< as its author wrote it
   Target target{};
-  DriveWithValue present{};         ///< its value is none
-  Judgement met = Judgement::some;  ///< judge_present()
-  std::vector<DesignedParameter> parameters{};
+  Design design{};
   AngleUnit angle{};  ///< of text
   Provenance provenance{};
 };

@@ -111,8 +111,8 @@ MotionPicture servo_picture(const AnswerReport& report, const Analysis& analysis
 }
 
 /// The cycles of a search with the ways to them. The basins are watched if there are several.
-MotionPicture searched_picture(const AnswerReport& report, const Analysis& analysis,
-                               Progress& progress) {
+MotionPicture search_picture(const AnswerReport& report, const Analysis& analysis,
+                             Progress& progress) {
   const drive::AttractorSearch& search = *analysis.search;
   const drive::ReducedDrive& reduced = analysis.reduced;
   MotionPicture picture =
@@ -133,7 +133,7 @@ MotionPicture searched_picture(const AnswerReport& report, const Analysis& analy
 MotionPicture phase_picture(const AnswerReport& report, const Analysis& analysis,
                             Progress& progress) {
   return analysis.closed ? servo_picture(report, analysis)
-                         : searched_picture(report, analysis, progress);
+                         : search_picture(report, analysis, progress);
 }
 
 MotionPicture response_picture(const AnswerReport& report, const Analysis& analysis) {

@@ -32,7 +32,7 @@ ChartCurve curve_of(const GridTable& table, const Family& family, std::size_t fi
     // For searched drives rest has a value: an amplitude of 0.
     CurveServo servo{x.values[i], family.engines().search
                                       ? table.table[quantity][first + i]
-                                      : of_motion(table.table, quantity, first + i)};
+                                      : motion_value(table.table, quantity, first + i)};
     if (ends && verdict == Verdict::hunts) servo.hunts = true;
     if (ends && verdict == Verdict::cannot_hunt) servo.hunts = false;
     servos.push_back(servo);

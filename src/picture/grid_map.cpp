@@ -18,7 +18,7 @@ std::vector<double> levels_of(const GridTable& table, Quantity quantity) {
   const double unit = drawn_unit(quantity, table.grid, table.angle);
   std::vector<double> motions(table.table.rows());
   for (std::size_t row = 0; row < motions.size(); ++row) {
-    motions[row] = of_motion(table.table, quantity, row) / unit;
+    motions[row] = motion_value(table.table, quantity, row) / unit;
   }
   std::vector<double> levels = round_levels(std::move(motions));
   // Level 1 is the boundary itself: growth at rest and the multiplier beside it are 1 there.
@@ -179,7 +179,7 @@ CellMap cells_of(const GridTable& table, Quantity quantity) {
     std::vector<bool>& framed = panel.framed.emplace_back();
     for (std::size_t j = 0; j < x.values.size(); ++j) {
       const std::size_t point = i * x.values.size() + j;
-      const double value = of_motion(table.table, quantity, point) / unit;
+      const double value = motion_value(table.table, quantity, point) / unit;
       const bool is_rest = std::isnan(value) && !std::isnan(table.table[quantity][point]);
       row.push_back(is_rest ? std::numeric_limits<double>::infinity() : value);
       framed.push_back(table.target && table.kinds[point] == PlaceKind::met);

@@ -457,8 +457,8 @@ class NyquistDrawing {
 
 }  // namespace
 
-std::vector<DescribingAnalysis> of_one_loop(const std::vector<DescribingAnalysis>& analyses,
-                                            DescribedPart part) {
+std::vector<DescribingAnalysis> loop_analyses(const std::vector<DescribingAnalysis>& analyses,
+                                              DescribedPart part) {
   const auto is_gap = [](DescribedPart other) {
     return other == DescribedPart::gap_load_held || other == DescribedPart::gap_load_coasting;
   };

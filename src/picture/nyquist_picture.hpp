@@ -21,7 +21,7 @@ struct NyquistPicture {
 
 /// The analyses of this part; for a gap those of both kinds of load. Empty if the part is in no
 /// loop.
-std::vector<drive::DescribingAnalysis> of_one_loop(
+std::vector<drive::DescribingAnalysis> loop_analyses(
     const std::vector<drive::DescribingAnalysis>& analyses, drive::DescribedPart part);
 
 /// Draws L(jω) with marks of frequency, and −1/N(A) with marks of amplitude and an arrow towards

@@ -375,8 +375,8 @@ TEST(EnclosedReduction, TustinsFilterIsThatOfTheBook) {
     expect_contains(found.state_matrix[0][0], (2 * F - T) / (2 * F + T), "pole");
     expect_contains(found.direct[0], proportional + 2 * Digits(derivative) / (2 * F + T),
                     "at once");
-    EXPECT_EQ(drive::of_both(found.direct).low, 0.0);
-    EXPECT_EQ(drive::of_both(found.direct).high, 0.0);
+    EXPECT_EQ(drive::sum_of_both(found.direct).low, 0.0);
+    EXPECT_EQ(drive::sum_of_both(found.direct).high, 0.0);
   }
 }
 

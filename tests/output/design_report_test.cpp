@@ -29,7 +29,7 @@ DesignReport report_with(const std::optional<LinearLoop>& loop) {
   one.answer.loop = loop;
   one.answer.verdict = Verdict::comes_to_rest;
   parameter.results = {one};
-  report.parameters = {parameter};
+  report.design.parameters = {parameter};
   return report;
 }
 

@@ -32,7 +32,7 @@ drive::ReducedDrive all_parts() {
 NyquistPicture picture_of(const drive::ReducedDrive& drive, DescribedPart part) {
   NyquistPicture picture;
   picture.title = "title";
-  picture.analyses = of_one_loop(describing_analyses(drive), part);
+  picture.analyses = loop_analyses(describing_analyses(drive), part);
   return picture;
 }
 
@@ -45,9 +45,9 @@ NyquistPicture picture_of(DescribedPart part) {
 TEST(NyquistPicture, BothLoadsInTheGapShareAPicture) {
   const auto analyses = describing_analyses(all_parts());
   EXPECT_EQ(analyses.size(), 5U);
-  EXPECT_EQ(of_one_loop(analyses, DescribedPart::gap_load_held).size(), 2U);
-  EXPECT_EQ(of_one_loop(analyses, DescribedPart::coulomb_friction).size(), 1U);
-  EXPECT_TRUE(of_one_loop({analyses[0]}, DescribedPart::torque_limit).empty());
+  EXPECT_EQ(loop_analyses(analyses, DescribedPart::gap_load_held).size(), 2U);
+  EXPECT_EQ(loop_analyses(analyses, DescribedPart::coulomb_friction).size(), 1U);
+  EXPECT_TRUE(loop_analyses({analyses[0]}, DescribedPart::torque_limit).empty());
 }
 
 TEST(NyquistPicture, EveryPartIsDrawn) {

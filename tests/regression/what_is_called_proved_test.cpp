@@ -10,8 +10,8 @@
 #include "closed_form/trajectory.hpp"
 #include "model/reduced_drive.hpp"
 #include "question/change/drives.hpp"
-#include "question/change/feasible_values.hpp"
 #include "question/change/target.hpp"
+#include "question/change/values.hpp"
 
 namespace gearlash::what_is_called_proved_test {
 namespace {
@@ -62,7 +62,7 @@ TEST(RegressionProved, DesignLeavesOpenWhatTheDataLeaveOpen) {
   const auto values_below = [&](double growth) {
     Target target;
     target.require(Quantity::growth_at_rest, {0.0, growth});
-    return feasible_values(drive, "backlash", target);
+    return values(drive, "backlash", target);
   };
   // Version 0.1 called it proved that no backlash does it. The growth is .0083170867724 of the
   // doubles and .0083170868353 of the decimals: 1 − f has seven digits less than f.
@@ -91,7 +91,7 @@ TEST(RegressionProved, DesignDoesNotContradictItself) {
   const NormalizedServo servo =
       servo_of(67.15170913401705, .07958454908395947, 2.043082623864931e-06);
   const Drive drive = drive_of(servo);
-  const FeasibleValues values = feasible_values(drive, "backlash", always_at_rest());
+  const FeasibleValues values = values(drive, "backlash", always_at_rest());
   const Judgement at_present = judge(
       always_at_rest(),
       bounds_of(box_of(drive, *final_servo(drive)), std::numeric_limits<double>::quiet_NaN()));

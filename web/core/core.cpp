@@ -171,9 +171,9 @@ class Core::Session {
       axes.push_back(read_axis_to_search("parameters", path.get<std::string>(), written.drive));
     }
     if (!axes.empty()) {
-      return margins_json(text, written, hunting_margin(written.drive, axes, progress));
+      return margins_json(text, written, gearlash::margins(written.drive, axes, progress));
     }
-    return margins_json(text, written, hunting_margin(written.drive, progress));
+    return margins_json(text, written, gearlash::margins(written.drive, progress));
   }
 
   Json thesis_figure(int number, Progress& progress) {

@@ -98,13 +98,13 @@ AffineForm DriveForms::feedforward_torque(const DriveMode& mode) const {
   return forward.torque / forward.speed * reference_speed();
 }
 
-AffineForm DriveForms::of_inputs(const DriveMode& mode, const std::vector<double>& factors) const {
+AffineForm DriveForms::input_form(const DriveMode& mode, const std::vector<double>& factors) const {
   const AffineForm speed = factors[2] * sensed_speed();
   if (drive_.error_shape.is_present()) return factors[0] * shaped_error(mode) + speed;
   return factors[0] * command(mode) + factors[1] * measured_position() + speed;
 }
 
-AffineForm DriveForms::of_controller(const std::vector<double>& factors) const {
+AffineForm DriveForms::controller_form(const std::vector<double>& factors) const {
   AffineForm sum = constant(0.0);
   for (std::size_t i = 0; i < factors.size(); ++i) {
     sum.normal[controller_states + static_cast<Eigen::Index>(i)] = factors[i];
@@ -114,7 +114,7 @@ AffineForm DriveForms::of_controller(const std::vector<double>& factors) const {
 
 AffineForm DriveForms::asked_torque(const DriveMode& mode) const {
   if (drive_.sampling) return number(at_.held);
-  return of_controller(controller_.output) + of_inputs(mode, controller_.direct) +
+  return controller_form(controller_.output) + input_form(mode, controller_.direct) +
          feedforward_torque(mode);
 }
 
@@ -226,8 +226,8 @@ hybrid::AffineFlow DriveForms::flow(const DriveMode& mode) const {
   generate(load_generator_, at_.load_torque);
   for (std::size_t i = 0; !drive_.sampling && i < controller_.order(); ++i) {
     set(controller_states + static_cast<Eigen::Index>(i),
-        of_controller(controller_.state_matrix[i]) + of_inputs(mode, controller_.input_matrix[i]) +
-            withdrawal(mode, i));
+        controller_form(controller_.state_matrix[i]) +
+            input_form(mode, controller_.input_matrix[i]) + withdrawal(mode, i));
   }
   return flow;
 }

@@ -64,9 +64,9 @@ class DriveForms {
   hybrid::AffineForm feedforward_torque(const DriveMode& mode) const;
 
   /// Σ factors (r, y, v), of a continuous controller.
-  hybrid::AffineForm of_inputs(const DriveMode& mode, const std::vector<double>& factors) const;
+  hybrid::AffineForm input_form(const DriveMode& mode, const std::vector<double>& factors) const;
   /// Σ factors of the controller's states.
-  hybrid::AffineForm of_controller(const std::vector<double>& factors) const;
+  hybrid::AffineForm controller_form(const std::vector<double>& factors) const;
   hybrid::AffineForm asked_torque(const DriveMode& mode) const;
   /// The requested torque within its limit.
   hybrid::AffineForm limited_torque(const DriveMode& mode) const;

@@ -81,13 +81,13 @@ AffineReset without_inputs(const DriveForms& forms, const DriveMode& mode, Eigen
     reset.offset[row] = form.offset;
   };
   for (std::size_t i = 0; i < controller.order(); ++i) {
-    AffineForm next = forms.of_controller(controller.state_matrix[i]);
+    AffineForm next = forms.controller_form(controller.state_matrix[i]);
     if (!controller.anti_windup.empty()) {
       next = next + controller.anti_windup[i] * excess_withheld(forms, mode);
     }
     set(controller_states + static_cast<Eigen::Index>(i), next);
   }
-  set(result, forms.of_controller(controller.output) + forms.feedforward_torque(mode));
+  set(result, forms.controller_form(controller.output) + forms.feedforward_torque(mode));
   if (at.last_reading != StateIndices::none) set(at.last_reading, forms.constant(0.0));
   const Sampling& sampling = *forms.drive().sampling;
   if (sampling.delay > 0.0) {

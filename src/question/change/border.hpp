@@ -3,7 +3,7 @@
 
 #include "gearlash/design.hpp"
 #include "question/analyse.hpp"
-#include "question/change/searched_values.hpp"
+#include "question/change/analysed_values.hpp"
 
 namespace gearlash {
 

@@ -176,7 +176,7 @@ Jacobian derivatives(const Drive& drive, std::span<const Quantity> quantities,
   require_none(check.faults());
   const std::vector<std::string> names(paths.begin(), paths.end());
   require_none(faults(drive));
-  if (!closed_form_drive(drive)) return searched_derivatives(drive, quantities, names, progress);
+  if (!closed_form_drive(drive)) return orbit_derivatives(drive, quantities, names, progress);
   return jacobian_of(drive, quantities, names);
 }
 

@@ -119,9 +119,9 @@ Answer answer_beside(Drive drive, const Axis& axis, double value,
 
 }  // namespace
 
-Jacobian searched_derivatives(const Drive& drive, const Analysis& analysis,
-                              std::span<const Quantity> quantities,
-                              const std::vector<std::string>& paths, Progress& progress) {
+Jacobian orbit_derivatives(const Drive& drive, const Analysis& analysis,
+                           std::span<const Quantity> quantities,
+                           const std::vector<std::string>& paths, Progress& progress) {
   Jacobian jacobian{.quantities = {quantities.begin(), quantities.end()},
                     .paths = paths,
                     .values = {},
@@ -152,22 +152,22 @@ Jacobian searched_derivatives(const Drive& drive, const Analysis& analysis,
   return jacobian;
 }
 
-Jacobian searched_derivatives(const Drive& drive, std::span<const Quantity> quantities,
-                              const std::vector<std::string>& paths, Progress& progress) {
+Jacobian orbit_derivatives(const Drive& drive, std::span<const Quantity> quantities,
+                           const std::vector<std::string>& paths, Progress& progress) {
   presents_of(drive, paths);  // before the search
   ProgressPart search(progress, 0.0, 0.5);
   ProgressPart rest(progress, 0.5, 1.0);
-  return searched_derivatives(drive, analyse_in_full(drive, {}, search), quantities, paths, rest);
+  return orbit_derivatives(drive, analyse_in_full(drive, {}, search), quantities, paths, rest);
 }
 
-Jacobian searched_derivatives(const Drive& drive, const Analysis& analysis, Progress& progress) {
+Jacobian orbit_derivatives(const Drive& drive, const Analysis& analysis, Progress& progress) {
   std::vector<std::string> paths;
   for (const Parameter& parameter : all_parameters_of_drives()) {
     if (!exists(parameter, drive) || !parameter.choices.empty()) continue;
     const std::optional<double> present = number_in(parameter, drive);
     if (present && *present != 0.0) paths.emplace_back(parameter.path);
   }
-  return searched_derivatives(drive, analysis, differentiable_by_search, paths, progress);
+  return orbit_derivatives(drive, analysis, differentiable_by_search, paths, progress);
 }
 
 }  // namespace gearlash

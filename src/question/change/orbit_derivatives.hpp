@@ -19,17 +19,17 @@ inline constexpr std::array differentiable_by_search = {Quantity::amplitude,
 /// Of the largest cycle that is not unstable, where the analysis of the drive is known. Stopped by
 /// Progress, it lacks the slopes by the later paths. Throws InvalidInput for a path that is no
 /// number of the drive. Precondition: it was searched.
-Jacobian searched_derivatives(const Drive& drive, const Analysis& analysis,
-                              std::span<const Quantity> quantities,
-                              const std::vector<std::string>& paths,
-                              Progress& progress = no_progress());
+Jacobian orbit_derivatives(const Drive& drive, const Analysis& analysis,
+                           std::span<const Quantity> quantities,
+                           const std::vector<std::string>& paths,
+                           Progress& progress = no_progress());
 
 /// The same of all these quantities with respect to every number of the drive that is not 0.
-Jacobian searched_derivatives(const Drive& drive, const Analysis& analysis,
-                              Progress& progress = no_progress());
+Jacobian orbit_derivatives(const Drive& drive, const Analysis& analysis,
+                           Progress& progress = no_progress());
 
 /// The same after an analysis of the drive. Throws InvalidInput for an unsound drive too.
-Jacobian searched_derivatives(const Drive& drive, std::span<const Quantity> quantities,
-                              const std::vector<std::string>& paths, Progress& progress);
+Jacobian orbit_derivatives(const Drive& drive, std::span<const Quantity> quantities,
+                           const std::vector<std::string>& paths, Progress& progress);
 
 }  // namespace gearlash

@@ -150,7 +150,7 @@ class UnitSlopes {
     const bool is_whole =
         analysis.answer.irregular.empty() && analysis.search && analysis.search->is_complete;
     if (!is_whole) return std::nullopt;
-    return searched_derivatives(unit_, analysis, quantities, paths_, progress);
+    return orbit_derivatives(unit_, analysis, quantities, paths_, progress);
   }
 
   const Drive& unit_;

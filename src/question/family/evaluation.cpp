@@ -458,13 +458,13 @@ PointAnswer answer_at(const Family& family, std::span<const double> place, Quant
   return answer;
 }
 
-double of_motion(Quantity quantity, Verdict verdict, double value) {
+double motion_value(Quantity quantity, Verdict verdict, double value) {
   const bool is_absent = is_at_rest(verdict) && info_of(quantity).scope == QuantityScope::motion;
   return is_absent ? not_a_number : value;
 }
 
-double of_motion(const Table& table, Quantity quantity, std::size_t row) {
-  return of_motion(quantity, table.verdict(row), table[quantity][row]);
+double motion_value(const Table& table, Quantity quantity, std::size_t row) {
+  return motion_value(quantity, table.verdict(row), table[quantity][row]);
 }
 
 }  // namespace gearlash

@@ -87,8 +87,8 @@ CycleColumns columns_of(Table& table);
 std::span<const Quantity> quantities_known(const EnginesNeeded& engines);
 
 /// A quantity of the motion: NaN where the drive comes to rest, where a table has amplitude 0.
-double of_motion(const Table& table, Quantity quantity, std::size_t row);
-double of_motion(Quantity quantity, Verdict verdict, double value);
+double motion_value(const Table& table, Quantity quantity, std::size_t row);
+double motion_value(Quantity quantity, Verdict verdict, double value);
 
 /// The answer at one place between the points; undecided and NaN where there is no valid drive.
 struct PointAnswer {

@@ -51,7 +51,7 @@ double limit_beside(const NormalizedServo& servo, Quantity quantity) {
 /// The quantity at a place with plastic contact, or its limit if the servo does not hunt.
 double worked_out(const Family& family, Quantity quantity, const MapPoint& place) {
   const PointAnswer answer = answer_at(family, std::array{place.y, place.x}, quantity);
-  const double value = of_motion(quantity, answer.verdict, answer.value);
+  const double value = motion_value(quantity, answer.verdict, answer.value);
   return std::isnan(value) && answer.verdict == Verdict::cannot_hunt
              ? limit_beside(servo_at(family, place).value(), quantity)
              : value;
@@ -132,7 +132,7 @@ std::vector<Contour> contours_of(const Grid& grid, const Table& table, Quantity 
   const std::size_t width = grid.axes[1].values.size();
   std::vector<double> values(table.rows());
   for (std::size_t row = 0; row < values.size(); ++row) {
-    values[row] = of_motion(table, quantity, row);
+    values[row] = motion_value(table, quantity, row);
     if (!plastic || !std::isnan(values[row]) || table.verdict(row) != Verdict::cannot_hunt)
       continue;
     const MapPoint place{grid.axes[1].values[row % width], grid.axes[0].values[row / width]};

@@ -218,7 +218,7 @@ Bounds support_of(const Distribution& distribution) {
       distribution);
 }
 
-Bounds drawn_range_of(const Distribution& distribution) {
+Bounds range_of_draws(const Distribution& distribution) {
   const QuantileFunction value_at(distribution);
   return {value_at(least_share), value_at(1.0 - least_share)};
 }

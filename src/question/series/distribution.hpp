@@ -22,7 +22,7 @@ double standard_deviation_of(const Distribution& distribution);
 Bounds support_of(const Distribution& distribution);
 /// The lowest and highest values ever drawn: the quantiles of 2⁻⁵³ and 1 − 2⁻⁵³. For a normal that
 /// is not truncated they lie 8.2 standard deviations from its mean.
-Bounds drawn_range_of(const Distribution& distribution);
+Bounds range_of_draws(const Distribution& distribution);
 /// The support, with infinite ends replaced by the mean ± 3 standard deviations.
 Bounds three_sigma_range_of(const Distribution& distribution);
 

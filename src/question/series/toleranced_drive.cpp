@@ -13,7 +13,7 @@ namespace {
 
 /// The lowest and the highest value that can be drawn, or that they can come arbitrarily close to.
 Bounds range_of(const Distribution& distribution) {
-  const Bounds drawn = drawn_range_of(distribution);
+  const Bounds drawn = range_of_draws(distribution);
   const Bounds support = support_of(distribution);
   return {std::isinf(support.low) ? drawn.low : support.low,
           std::isinf(support.high) ? drawn.high : support.high};

@@ -22,7 +22,7 @@ double lowest_backlash(const TolerancedDrive& drive, const BacklashDemand& deman
   if (!place) return get(drive.nominal, path_of_backlash(drive.nominal));
   const Distribution& distribution = drive.varied[*place].distribution;
   const double support = support_of(distribution).low;
-  return std::isinf(support) ? drawn_range_of(distribution).low : support;
+  return std::isinf(support) ? range_of_draws(distribution).low : support;
 }
 
 /// The drive with the coordinate u itself as backlash.

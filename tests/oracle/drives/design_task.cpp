@@ -152,7 +152,7 @@ DesignTask random_design_task(std::uint64_t seed) {
 }
 
 DesignCheck checked_design(const DesignTask& task) {
-  DesignCheck check{.found = feasible_values(task.drive, task.axis, task.target)};
+  DesignCheck check{.found = values(task.drive, task.axis, task.target)};
   std::vector<double> ends;
   std::vector<double> inner;
   for (const Bounds& interval : check.found.intervals) {

@@ -83,7 +83,7 @@ double speed_at_impact(const Analysis& analysis) {
 TEST(OracleBorder, AtAGrazingTheLoadAllButStopsBeforeAnImpactAndNoCycleIsBeyond) {
   Drive drive = hunting_drive();
   const FeasibleValues found =
-      feasible_values(drive, linear("controller.proportional", 4.0, 10.0, 7), still);
+      values(drive, linear("controller.proportional", 4.0, 10.0, 7), still);
   ASSERT_EQ(found.borders.size(), 1U);
   const Border& grazing = found.borders[0];
   EXPECT_EQ(grazing.kind, BorderKind::grazing);
@@ -104,7 +104,7 @@ TEST(Border, AtALimitOfAQuantityNothingElseHappens) {
   Target small;
   small.require(Quantity::amplitude, {0.0, 5e-4});
   const FeasibleValues found =
-      feasible_values(hunting_drive(), linear("gearbox.backlash", 1.5e-3, 2.0e-3, 3), small);
+      values(hunting_drive(), linear("gearbox.backlash", 1.5e-3, 2.0e-3, 3), small);
   ASSERT_EQ(found.borders.size(), 1U);
   EXPECT_EQ(found.borders[0].kind, BorderKind::limit);
   EXPECT_EQ(found.borders[0].at, found.intervals.at(0).high);

@@ -30,8 +30,7 @@ Drive with(Drive drive, std::string_view path, double value) {
 }
 
 TEST(Design, DampingWithoutHuntingBeginsWhereGrowthAtRestIsOne) {
-  const FeasibleValues damping =
-      feasible_values(sample_servo(), "servo.damping", {.no_hunting = true});
+  const FeasibleValues damping = values(sample_servo(), "servo.damping", {.no_hunting = true});
   EXPECT_EQ(damping.kind, SearchKind::certified);
   ASSERT_EQ(damping.intervals.size(), 1U);
   const double least = damping.intervals[0].low;
@@ -49,8 +48,8 @@ TEST(Design, ASignalThatEndsIsLeftOut) {
   Drive drive = sample_servo();
   drive.reference = StepSignal{.after = 1.0};
   const Target target{.no_hunting = true};
-  EXPECT_EQ(feasible_values(drive, "servo.damping", target).intervals,
-            feasible_values(sample_servo(), "servo.damping", target).intervals);
+  EXPECT_EQ(values(drive, "servo.damping", target).intervals,
+            values(sample_servo(), "servo.damping", target).intervals);
 }
 
 /// The sample servo with J_M + J_L = 1 kg m² and ω_n = 1 rad/s, and its numbers changed.
@@ -68,7 +67,7 @@ Drive changed(const LogChange& change) {
 
 TEST(Design, TheLeastChangeEndsWhereGrowthAtRestIsOne) {
   const Drive drive = changed({});
-  const HuntingMargin margin = hunting_margin(drive);
+  const HuntingMargin margin = margins(drive);
   EXPECT_NEAR(margin.growth_at_rest.value(), analyse(sample_servo()).growth_at_rest.value(), 1e-13);
   EXPECT_EQ(margin.overall->outcome, MarginOutcome::found);
   EXPECT_TRUE(margin.overall->hunts);
@@ -95,7 +94,7 @@ TEST(Design, TheLeastChangeEndsWhereGrowthAtRestIsOne) {
 
 TEST(Design, AMarginThatIsStoppedSaysSo) {
   test::Stopping impatient;
-  const HuntingMargin margin = hunting_margin(sample_servo(), impatient);
+  const HuntingMargin margin = margins(sample_servo(), impatient);
   EXPECT_TRUE(margin.stopped);
   EXPECT_EQ(margin.parameters.size(), 1U);
   EXPECT_TRUE(margin.overall->change);
@@ -105,7 +104,7 @@ using test::faults_of;
 
 TEST(EdgeDesign, BadInputIsAFault) {
   const auto asked = [](const Drive& drive, std::string_view path, const Target& target) {
-    return faults_of([&] { (void)feasible_values(drive, path, target); });
+    return faults_of([&] { (void)values(drive, path, target); });
   };
   const Target quiet{.no_hunting = true};
   EXPECT_THAT(asked(sample_servo(), "servo.dumping", quiet),
@@ -115,7 +114,7 @@ TEST(EdgeDesign, BadInputIsAFault) {
                           "itself"));
   EXPECT_THAT(asked(with(sample_servo(), "servo.damping", -1.0), "servo.damping", quiet),
               ElementsAre(HasSubstr("servo.damping = -1")));
-  EXPECT_THAT(faults_of([&] { (void)hunting_margin(with(sample_servo(), "servo.damping", -1.0)); }),
+  EXPECT_THAT(faults_of([&] { (void)margins(with(sample_servo(), "servo.damping", -1.0)); }),
               ElementsAre(HasSubstr("servo.damping = -1")));
 }
 

@@ -200,7 +200,7 @@ TEST(PropertySearchedSensitivity, AgreesWithDifferencesOfTheCycles) {
     const Analysis analysis = analyse_in_full(drawn, {.borders = false});
     const Cycle* cycle = analysis.answer.largest_stable();
     if (cycle == nullptr || !analysis.search) continue;
-    const Jacobian jacobian = searched_derivatives(drawn, analysis);
+    const Jacobian jacobian = orbit_derivatives(drawn, analysis);
     if (!jacobian.reason.empty()) continue;
     ++found.cycles;
     const auto index = static_cast<std::size_t>(cycle - analysis.answer.cycles.data());
@@ -233,7 +233,7 @@ TEST(OracleSearchedSensitivity, OfAServoIsThatOfItsClosedForm) {
   const std::vector<std::string> paths = {
       "motor.inertia", "motor.friction", "gearbox.ratio",          "gearbox.backlash",
       "load.inertia",  "load.friction",  "controller.proportional"};
-  const Jacobian found = searched_derivatives(drive, analysis, quantities, paths);
+  const Jacobian found = orbit_derivatives(drive, analysis, quantities, paths);
   const Jacobian exact =
       derivatives(drive, quantities, std::vector<std::string_view>(paths.begin(), paths.end()));
   ASSERT_EQ(found.reason, "");
@@ -276,8 +276,8 @@ TEST(EdgeSearchedSensitivity, LacksTheSlopesByTheNumbersAfterAStop) {
       PID{.terms = PIDTerms::PD, .proportional = 20.0, .derivative = 0.02, .filter = 1e-3};
   const Analysis analysis = analyse_in_full(drive, {.borders = false});
   test::Stopping impatient(2);
-  const Jacobian found = searched_derivatives(drive, analysis, std::array{Quantity::amplitude},
-                                              {"load.inertia", "motor.inertia"}, impatient);
+  const Jacobian found = orbit_derivatives(drive, analysis, std::array{Quantity::amplitude},
+                                           {"load.inertia", "motor.inertia"}, impatient);
   EXPECT_TRUE(found.slope(0, 0));
   EXPECT_FALSE(found.slope(0, 1));
 }

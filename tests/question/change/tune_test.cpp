@@ -39,8 +39,7 @@ Drive with_gain(double gain) {
 
 TEST(OracleTune, TheGreatestBandwidthIsAtTheBorderOfHunting) {
   const TuneTask task = servo_task();
-  const FeasibleValues exact =
-      feasible_values(task.series.nominal, "controller.proportional", task.target);
+  const FeasibleValues exact = values(task.series.nominal, "controller.proportional", task.target);
   ASSERT_EQ(exact.intervals.size(), 1U);
   const double border = exact.intervals[0].high;
   ASSERT_GT(border, 1e-2);
@@ -62,8 +61,7 @@ TEST(OracleTune, TheUnitWithTheLeastFrictionLimitsASeries) {
   task.series.varied = {{"load.friction", UniformBetween{0.15, 0.25}}};
   Drive least = task.series.nominal;
   least.load.friction.viscous = 0.15;
-  const double border =
-      feasible_values(least, "controller.proportional", task.target).intervals[0].high;
+  const double border = values(least, "controller.proportional", task.target).intervals[0].high;
   const TunedDrive tuned = tune(task, {.units = 16});
   EXPECT_TRUE(tuned.meets);
   EXPECT_EQ(tuned.met, 16U);

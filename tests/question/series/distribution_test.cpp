@@ -19,7 +19,7 @@ TEST(OracleDistribution, AnExactValueIsEveryQuantile) {
   const Distribution exact = ExactValue{0.1};
   for (const double u : {0x1p-53, 0.5, 1.0 - 0x1p-53}) EXPECT_EQ(quantile(exact, u), 0.1);
   EXPECT_EQ(standard_deviation_of(exact), 0.0);
-  EXPECT_EQ(drawn_range_of(exact), (Bounds{0.1, 0.1}));
+  EXPECT_EQ(range_of_draws(exact), (Bounds{0.1, 0.1}));
 }
 
 TEST(OracleDistribution, UniformIsLinear) {
@@ -40,7 +40,7 @@ TEST(OracleDistribution, QuantilesOfANormalGiveTheirShareBack) {
   }
   EXPECT_EQ(support_of(normal), (Bounds{-infinity, infinity}));
   EXPECT_EQ(three_sigma_range_of(normal), (Bounds{1.5, 4.5}));
-  EXPECT_NEAR(drawn_range_of(normal).low, 3.0 - 0.5 * 8.2095, 1e-4);
+  EXPECT_NEAR(range_of_draws(normal).low, 3.0 - 0.5 * 8.2095, 1e-4);
 }
 
 TEST(OracleDistribution, ATruncatedNormalHasTheMomentsOfItsDensity) {
@@ -80,8 +80,8 @@ TEST(OracleDistribution, ATruncatedNormalOnOneSide) {
   EXPECT_NEAR(mean_of(half), std::sqrt(2.0 / std::acos(-1.0)), 4.0 * epsilon);
   EXPECT_NEAR(standard_deviation_of(half), std::sqrt(1.0 - 2.0 / std::acos(-1.0)), 4.0 * epsilon);
   EXPECT_EQ(three_sigma_range_of(half), (Bounds{0.0, 3.0}));
-  EXPECT_GE(drawn_range_of(half).low, 0.0);
-  EXPECT_TRUE(std::isfinite(drawn_range_of(half).high));
+  EXPECT_GE(range_of_draws(half).low, 0.0);
+  EXPECT_TRUE(std::isfinite(range_of_draws(half).high));
 }
 
 TEST(OracleDistribution, LotsAreAsLikelyAsTheirWeights) {

@@ -10,8 +10,8 @@
 
 #include "base/seeded_draws.hpp"
 #include "base/stopping.hpp"
-#include "question/change/feasible_values.hpp"
 #include "question/change/target.hpp"
+#include "question/change/values.hpp"
 #include "question/faults_of.hpp"
 #include "question/series/sample_plan.hpp"
 #include "toleranced_samples.hpp"
@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, OracleToleranceOfBacklash,
 
 TEST(OracleToleranceStudy, OneThresholdDecidesHowManyHunt) {
   const Drive drive = sample_data_sheet();
-  const FeasibleValues quiet = feasible_values(drive, "load.friction", no_hunting());
+  const FeasibleValues quiet = values(drive, "load.friction", no_hunting());
   ASSERT_FALSE(quiet.intervals.empty());
   const double threshold = quiet.intervals.front().low;
   ASSERT_GT(threshold, 0.038);
@@ -136,8 +136,8 @@ TEST(OracleToleranceStudy, IndicesOfAProductAreThoseOfItsFactors) {
   const double variance_s = product.moment(2) - mean_s * mean_s;
   const double of_b = variance_b * mean_s * mean_s;
   const double of_s = variance_s * mean_b * mean_b;
-  const double of_both = variance_b * variance_s;
-  const double all = of_b + of_s + of_both;
+  const double sum_of_both = variance_b * variance_s;
+  const double all = of_b + of_s + sum_of_both;
   const SamplePlan sampling{.points = 8192, .replicates = 16, .seed = 42};
   SCOPED_TRACE(sampling.seed);
   const SensitivityStudy found = study_sensitivities(product.drive(), sampling);
@@ -148,8 +148,8 @@ TEST(OracleToleranceStudy, IndicesOfAProductAreThoseOfItsFactors) {
   expect(found.amplitude_variance, all);
   expect(found.numbers[0].of_amplitude->first_order, of_b / all);
   expect(found.numbers[1].of_amplitude->first_order, of_s / all);
-  expect(found.numbers[0].of_amplitude->total, (of_b + of_both) / all);
-  expect(found.numbers[1].of_amplitude->total, (of_s + of_both) / all);
+  expect(found.numbers[0].of_amplitude->total, (of_b + sum_of_both) / all);
+  expect(found.numbers[1].of_amplitude->total, (of_s + sum_of_both) / all);
 }
 
 /// Slope of the straight line through points, by least squares.

@@ -196,7 +196,7 @@ std::vector<Assumption> omissions(const ReducedDrive& drive, DescribedPart part,
 // ---- the search ---------------------------------------------------------------------------------
 
 /// Frequencies of poles, zeros and of |L| = 1 on the high-frequency asymptote, with margins.
-Bounds searched_frequencies(const TransferFunction& loop) {
+Bounds frequency_range(const TransferFunction& loop) {
   Bounds range = natural_frequency_range(loop);
   const FactoredTransferFunction factors = factored(loop);
   const double order =
@@ -236,7 +236,7 @@ DescribingAnalysis completed(DescribingAnalysis analysis, const ReducedDrive& dr
   analysis.assumptions = omissions(drive, analysis.part, delay_is_rational);
   if (!is_in_loop(analysis)) return analysis;
   HarmonicBalance balance =
-      harmonic_balance(analysis.nonlinearity, analysis.loop, searched_frequencies(analysis.loop));
+      harmonic_balance(analysis.nonlinearity, analysis.loop, frequency_range(analysis.loop));
   analysis.unresolved = std::move(balance.unresolved);
   for (const PredictedCycle& cycle : balance.cycles) {
     analysis.cycles.push_back(motion_of(analysis, cycle, drive.backlash));

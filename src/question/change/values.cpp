@@ -1,4 +1,4 @@
-#include "question/change/feasible_values.hpp"
+#include "question/change/values.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +16,9 @@
 #include "model/parameter_values.hpp"
 #include "question/analyse.hpp"
 #include "question/axis.hpp"
+#include "question/change/analysed_values.hpp"
 #include "question/change/closed_form_line.hpp"
 #include "question/change/proved_values.hpp"
-#include "question/change/searched_values.hpp"
 #include "question/change/value_scan.hpp"
 
 namespace gearlash {
@@ -501,8 +501,8 @@ std::vector<std::string> usual_parameters(const Drive& drive) {
   return usual;
 }
 
-FeasibleValues feasible_values(const Drive& drive, const Axis& axis, const Target& target,
-                               Progress& progress) {
+FeasibleValues values(const Drive& drive, const Axis& axis, const Target& target,
+                      Progress& progress) {
   std::vector<Fault> all = faults(drive);
   for (const std::vector<Fault>& more : {faults_of_axis(axis, drive, "axis"), faults(target)}) {
     all.insert(all.end(), more.begin(), more.end());
@@ -525,21 +525,9 @@ FeasibleValues feasible_values(const Drive& drive, const Axis& axis, const Targe
   return values_of_number(drive, axis, target, std::move(found), progress);
 }
 
-FeasibleValues feasible_values(const Drive& drive, std::string_view parameter, const Target& target,
-                               Progress& progress) {
-  return feasible_values(drive, axis_to_search(drive, parameter), target, progress);
-}
-
-Judgement judge_present(const Drive& drive, const Target& target, const Answer& present) {
-  const Judgement at_point = is_met(target, present)     ? Judgement::all
-                             : is_known(target, present) ? Judgement::none
-                                                         : Judgement::some;
-  const std::optional<FinalServo> servo = final_servo(drive);
-  if (!servo || !servo_dynamics(servo->closed_form.servo).plastic_contact()) return at_point;
-  const auto [bounded, others] = parts_of(target, [](Quantity one) { return is_of_boxes(one); });
-  const Judgement proved =
-      judge(bounded, bounds_of(box_of(drive, *servo), flight_time_of(present)));
-  return is_empty(others) || proved == Judgement::none ? proved : std::min(proved, at_point);
+FeasibleValues values(const Drive& drive, std::string_view parameter, const Target& target,
+                      Progress& progress) {
+  return values(drive, axis_to_search(drive, parameter), target, progress);
 }
 
 }  // namespace gearlash

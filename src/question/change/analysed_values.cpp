@@ -1,4 +1,4 @@
-#include "question/change/searched_values.hpp"
+#include "question/change/analysed_values.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -129,7 +129,7 @@ Resolution resolution_over(const Bounds& range) {
   return {.smooth = 1e-9, .at_jump = at_jump, .least = 1e-3 * at_jump * (range.high - range.low)};
 }
 
-std::vector<JudgedValue> of_words(JudgedLine& line, FeasibleValues& found) {
+std::vector<JudgedValue> judged_words(JudgedLine& line, FeasibleValues& found) {
   std::vector<JudgedValue> tried =
       judged_values([&](double value) { return line.afresh(value); }, found.grid);
   for (const JudgedValue& one : tried) {
@@ -214,7 +214,7 @@ LastMet where_verdicts_repeat(const Judge& afresh, double met, LastMet last,
   return last;
 }
 
-std::vector<JudgedValue> of_numbers(JudgedLine& line, FeasibleValues& found) {
+std::vector<JudgedValue> judged_numbers(JudgedLine& line, FeasibleValues& found) {
   const Resolution resolution = resolution_over(found.searched);
   const auto afresh = [&](double value) { return line.afresh(value); };
   const auto followed = [&](double value) { return line.followed(value); };
@@ -260,18 +260,19 @@ void fill(FeasibleValues& found, const DriveAlong& drive, const Target& target,
 FeasibleValues feasible_along(const DriveAlong& drive, const std::vector<double>& grid,
                               const Target& target, Progress& progress) {
   FeasibleValues found{.searched = {grid.front(), grid.back()}, .grid = grid};
-  fill(found, drive, target, wanted_for(target, drive(grid.front())), progress, of_numbers);
+  fill(found, drive, target, wanted_for(target, drive(grid.front())), progress, judged_numbers);
   return found;
 }
 
 void search_numbers(const Drive& drive, const Axis& axis, const Target& target,
                     FeasibleValues& found, Progress& progress) {
-  fill(found, drives_along(axis, drive), target, wanted_for(target, drive), progress, of_numbers);
+  fill(found, drives_along(axis, drive), target, wanted_for(target, drive), progress,
+       judged_numbers);
 }
 
 void search_words(const Drive& drive, const Axis& axis, const Target& target, FeasibleValues& found,
                   Progress& progress) {
-  fill(found, drives_along(axis, drive), target, wanted_for(target, drive), progress, of_words);
+  fill(found, drives_along(axis, drive), target, wanted_for(target, drive), progress, judged_words);
 }
 
 }  // namespace gearlash

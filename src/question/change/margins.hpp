@@ -8,7 +8,10 @@
 
 namespace gearlash {
 
-/// The border of one parameter from feasible_values() for always_at_rest(). `hunts`: whether the
+/// The nearest ends of intervals, where `quiet` are the values without hunting.
+ParameterMargin margin_of(const FeasibleValues& quiet);
+
+/// The border of one parameter from values() for always_at_rest(). `hunts`: whether the
 /// drive is not known to rest at present. A border that was searched, and beyond which the drive is
 /// unsound or its motion unknown, is none of hunting. Throws InvalidInput.
 ParameterMargin parameter_margin(const Drive& drive, const Axis& axis, bool hunts,

@@ -1,4 +1,4 @@
-#include "question/change/hunting_margin.hpp"
+#include "question/change/overall_margin.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include "gearlash/parameter.hpp"
 #include "numeric/differences.hpp"
 #include "numeric/linear_algebra.hpp"
-#include "question/change/searched_margin.hpp"
+#include "question/change/margins.hpp"
 #include "question/change/target.hpp"
 #include "question/final_servo.hpp"
 
@@ -239,14 +239,6 @@ std::optional<MarginOutcome> outcome_without_search(const Drivetrain& drive) {
 
 }  // namespace
 
-std::optional<double> ParameterMargin::per_cent_below() const {
-  return below && present != 0.0 ? std::optional(100.0 * (*below / present - 1.0)) : std::nullopt;
-}
-
-std::optional<double> ParameterMargin::per_cent_above() const {
-  return above && present != 0.0 ? std::optional(100.0 * (*above / present - 1.0)) : std::nullopt;
-}
-
 double LogChange::length() const {
   return Change(motor_inertia, load_inertia, motor_friction, load_friction, stiffness).norm();
 }
@@ -273,66 +265,6 @@ OverallMargin overall_margin(const Drivetrain& drive) {
     accept(margin, growth, *least);
   }
   if (margin.outcome != MarginOutcome::found) margin.outcome = MarginOutcome::out_of_reach;
-  return margin;
-}
-
-ParameterMargin margin_of(const FeasibleValues& quiet) {
-  ParameterMargin margin{.parameter = quiet.parameter,
-                         .present = quiet.present,
-                         .searched = quiet.searched,
-                         .kind = quiet.kind,
-                         .hunts = !quiet.contains(quiet.present),
-                         .undecided = quiet.undecided,
-                         .grid = quiet.grid,
-                         .located = quiet.located,
-                         .stopped = quiet.stopped};
-  const auto take = [&](double end) {
-    if (end <= quiet.present) margin.below = std::max(margin.below.value_or(end), end);
-    if (end >= quiet.present) margin.above = std::min(margin.above.value_or(end), end);
-  };
-  for (const Bounds& interval : quiet.intervals) {
-    if (interval.low != quiet.searched.low) take(interval.low);
-    if (interval.high != quiet.searched.high) take(interval.high);
-  }
-  return margin;
-}
-
-HuntingMargin hunting_margin(const Drive& drive, Progress& progress) {
-  require_none(faults(drive));
-  std::vector<Axis> axes;
-  for (const std::string& parameter : usual_parameters(drive)) {
-    if (parameter == "contact.restitution" && get(drive, parameter) == 0.0) continue;
-    axes.push_back(axis_to_search(drive, parameter));
-  }
-  return hunting_margin(drive, axes, progress);
-}
-
-HuntingMargin hunting_margin(const Drive& drive, const std::vector<Axis>& axes,
-                             Progress& progress) {
-  require_none(faults(drive));
-  const std::size_t parts = axes.size() + 2;
-  HuntingMargin margin;
-  ProgressPart first(progress, 0, parts);
-  const Answer present = analyse(drive, wanted_for(always_at_rest(), drive), first);
-  margin.hunts = !is_met(always_at_rest(), present);
-  margin.is_known = is_known(always_at_rest(), present);
-  margin.growth_at_rest = present.growth_at_rest;
-  margin.stopped = present.search && !present.search->is_complete;
-  for (const Axis& axis : axes) {
-    if (margin.stopped) break;
-    ProgressPart part(progress, margin.parameters.size() + 1, parts);
-    margin.parameters.push_back(
-        parameter_margin(drive, axis, margin.hunts || !margin.is_known, part));
-    margin.stopped = margin.parameters.back().stopped;
-  }
-  if (const std::optional<FinalServo> servo = final_servo(drive)) {
-    margin.overall = overall_margin(servo->drivetrain);
-    return margin;
-  }
-  if (margin.stopped || !margin.is_known) return margin;
-  ProgressPart last(progress, parts - 1, parts);
-  margin.combined = combined_margin(drive, axes, margin.parameters, margin.hunts, last);
-  margin.stopped = !progress.go_on(1.0);
   return margin;
 }
 

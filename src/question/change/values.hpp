@@ -23,15 +23,10 @@ namespace gearlash {
 // finds. Backlash is not scanned: amplitudes are proportional to it, and nothing else depends on
 // it.
 //
-// Any other drive is analysed at each value of the axis (searched_values.hpp).
+// Any other drive is analysed at each value of the axis (analysed_values.hpp).
 //
 // Figures, which are computed without the motions that the drive ends in, are scanned within the
 // intervals that the other conditions leave.
-
-/// Whether the present drive meets the target: proved for its data as far as bounds go, where the
-/// closed form answers with plastic contact. Some: it stands on a limit to within rounding, or it
-/// is not known. `present`: its answer, with all that wanted_for() asks for.
-Judgement judge_present(const Drive& drive, const Target& target, const Answer& present);
 
 /// axis_to_search() of gearlash/design.hpp; faults name `field`. Precondition: a sound drive.
 Axis axis_to_search(std::string_view field, const Drive& drive, std::string_view parameter);

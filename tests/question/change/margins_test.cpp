@@ -1,5 +1,5 @@
 // Margins of searched drives beside those of the closed form, and put back into the drive.
-#include "question/change/searched_margin.hpp"
+#include "question/change/margins.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,13 +11,13 @@
 #include "closed_form/growth_at_rest.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
-#include "question/change/hunting_margin.hpp"
+#include "question/change/overall_margin.hpp"
 #include "question/change/target.hpp"
 #include "question/faults_of.hpp"
 #include "question/final_servo.hpp"
 #include "question/pd_drive.hpp"
 
-namespace gearlash::searched_margin_test {
+namespace gearlash::margins_test {
 namespace {
 
 using testing::ElementsAre;
@@ -67,7 +67,7 @@ ParameterMargin exact(std::string_view parameter) {
 TEST(OracleSearchedMargin, OfAServoBehindAFarLimitIsThatOfTheClosedForm) {
   ASSERT_FALSE(analyse(limited_servo()).growth_at_rest);
   const Axis gain = logarithmic("controller.proportional", 0.5, 1.0, 2);
-  const HuntingMargin margin = hunting_margin(limited_servo(), {gain});
+  const HuntingMargin margin = margins(limited_servo(), {gain});
   EXPECT_TRUE(margin.hunts && margin.is_known);
   EXPECT_FALSE(margin.overall || margin.growth_at_rest || margin.stopped);
   const ParameterMargin& found = margin.parameters.at(0);
@@ -111,7 +111,7 @@ TEST(SearchedMargin, EndsWhereADriveThatRestsBeginsToHunt) {
   ASSERT_TRUE(rests(drive));
   const std::vector<Axis> axes = {logarithmic("controller.proportional", 0.2, 20.0, 9),
                                   logarithmic("gearbox.backlash", 2e-4, 2e-2, 5)};
-  const HuntingMargin margin = hunting_margin(drive, axes);
+  const HuntingMargin margin = margins(drive, axes);
   EXPECT_FALSE(margin.hunts);
   const ParameterMargin& gain = margin.parameters[0];
   ASSERT_TRUE(gain.above);
@@ -136,7 +136,7 @@ TEST(SearchedMargin, EndsWhereADriveThatRestsBeginsToHunt) {
 
 TEST(SearchedMargin, OfAWordAreTheChoicesThatChangeTheVerdict) {
   const Drive drive = with(pd_drive(), "controller.proportional", 20.0);
-  const HuntingMargin margin = hunting_margin(drive, {usual_axis(drive, "sensor.position")});
+  const HuntingMargin margin = margins(drive, {usual_axis(drive, "sensor.position")});
   const ParameterMargin& place = margin.parameters[0];
   EXPECT_FALSE(place.below || place.above || margin.combined);
   for (const double word : place.grid) {
@@ -185,7 +185,7 @@ TEST(EdgeSearchedMargin, OfOneParameterIsTheLeastChangeWhereNoneCombinedIsLess) 
 TEST(EdgeSearchedMargin, CanBeStopped) {
   auto stop = test::Stopping::at(0.5);
   const HuntingMargin margin =
-      hunting_margin(pd_drive(), {logarithmic("controller.proportional", 0.2, 20.0, 9)}, stop);
+      margins(pd_drive(), {logarithmic("controller.proportional", 0.2, 20.0, 9)}, stop);
   EXPECT_TRUE(margin.stopped);
   EXPECT_FALSE(margin.combined);
   ASSERT_EQ(margin.parameters.size(), 1U);
@@ -204,10 +204,10 @@ TEST(SearchedMargin, IsByDefaultOfTheGapAndTheController) {
 
 TEST(EdgeSearchedMargin, FaultsAreTold) {
   EXPECT_THAT(test::faults_of([] {
-                (void)hunting_margin(pd_drive(), {Axis{"load.colour", {1.0}}});
+                (void)margins(pd_drive(), {Axis{"load.colour", {1.0}}});
               }),
               ElementsAre(HasSubstr("load.colour")));
 }
 
 }  // namespace
-}  // namespace gearlash::searched_margin_test
+}  // namespace gearlash::margins_test

@@ -1,5 +1,5 @@
 // Feasible values: put back they meet the target, and a scan finds no others.
-#include "question/change/feasible_values.hpp"
+#include "question/change/values.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include "question/change/drives.hpp"
 #include "question/change/target.hpp"
 
-namespace gearlash::feasible_values_test {
+namespace gearlash::values_test {
 namespace {
 
 /// The servo of the thesis's sample problem, about.
@@ -38,7 +38,7 @@ Target at_least_as_fast_as(double frequency) {
 }
 
 TEST(FeasibleValues, OfBacklashAreInProportionToTheSize) {
-  const FeasibleValues found = feasible_values(sample_drive(), "backlash", at_most(0.1));
+  const FeasibleValues found = values(sample_drive(), "backlash", at_most(0.1));
   ASSERT_EQ(found.intervals.size(), 1U);
   const double size = amplitude_in(closed_answer(sample_drive()));
   EXPECT_NEAR(found.intervals[0].high, 0.3 * 0.1 / size, 1e-15);
@@ -47,23 +47,21 @@ TEST(FeasibleValues, OfBacklashAreInProportionToTheSize) {
 }
 
 TEST(FeasibleValues, NoBacklashEndsHunting) {
-  const FeasibleValues found = feasible_values(sample_drive(), "backlash", no_hunting());
+  const FeasibleValues found = values(sample_drive(), "backlash", no_hunting());
   EXPECT_TRUE(found.intervals.empty());
   EXPECT_FALSE(found.nearest());
   EXPECT_EQ(found.kind, SearchKind::certified);
 }
 
 TEST(FeasibleValues, MayBeSeveralIntervals) {
-  const FeasibleValues ratio = feasible_values(sample_drive(), "gearbox.ratio", no_hunting());
+  const FeasibleValues ratio = values(sample_drive(), "gearbox.ratio", no_hunting());
   EXPECT_EQ(ratio.intervals.size(), 2U);  // a very small one, and a very large one
-  const FeasibleValues inertia =
-      feasible_values(sample_drive(), "load.inertia", at_least_as_fast_as(0.16));
+  const FeasibleValues inertia = values(sample_drive(), "load.inertia", at_least_as_fast_as(0.16));
   EXPECT_EQ(inertia.intervals.size(), 2U);  // no hunting at all, and hunting fast
 }
 
 TEST(FeasibleValues, AMetTargetHasThePresentValue) {
-  const FeasibleValues found =
-      feasible_values(sample_drive(), "controller.proportional", at_most(1.0));
+  const FeasibleValues found = values(sample_drive(), "controller.proportional", at_most(1.0));
   EXPECT_TRUE(found.contains(1.0));
   EXPECT_EQ(found.nearest(), 1.0);
 }
@@ -78,14 +76,14 @@ Drive bouncing_drive() {
 
 TEST(FeasibleValues, OfBacklashWithBouncesAreInProportionToTheSizeToo) {
   const double size = amplitude_in(closed_answer(bouncing_drive()));
-  const FeasibleValues found = feasible_values(bouncing_drive(), "backlash", at_most(0.5 * size));
+  const FeasibleValues found = values(bouncing_drive(), "backlash", at_most(0.5 * size));
   EXPECT_EQ(found.kind, SearchKind::scanned);
   ASSERT_EQ(found.intervals.size(), 1U);
   EXPECT_NEAR(found.intervals[0].high, 0.15, 1e-14);
 }
 
 TEST(FeasibleValues, WithBouncesEndWhereGrowthAtRestPassesOne) {
-  const FeasibleValues found = feasible_values(bouncing_drive(), "load.friction", no_hunting());
+  const FeasibleValues found = values(bouncing_drive(), "load.friction", no_hunting());
   ASSERT_FALSE(found.intervals.empty());
   const double end = found.intervals[0].low;
   const auto growth_at = [](double value) {
@@ -99,7 +97,7 @@ TEST(FeasibleValues, WithBouncesEndWhereGrowthAtRestPassesOne) {
 TEST(FeasibleValues, ThatDoNotExistHaveAClosestOne) {
   Target enormous;
   enormous.require(Quantity::amplitude, {100.0, Target::infinity});
-  const FeasibleValues found = feasible_values(sample_drive(), "load.inertia", enormous);
+  const FeasibleValues found = values(sample_drive(), "load.inertia", enormous);
   EXPECT_TRUE(found.intervals.empty());
   ASSERT_TRUE(found.closest.has_value());
   const auto amplitude_at = [](double value) {
@@ -162,7 +160,7 @@ struct Scan {
 void scan(const Task& task, int values, Scan& found_so_far) {
   SCOPED_TRACE(describe(task));
   const Drive drive = drive_of(task.servo);
-  const FeasibleValues found = feasible_values(drive, task.parameter, task.target);
+  const FeasibleValues found = values(drive, task.parameter, task.target);
   EXPECT_EQ(found.kind, SearchKind::certified);
   for (const Bounds& sliver : found.undecided) {
     EXPECT_LT(sliver.high - sliver.low, 1e-4 * sliver.high);
@@ -235,7 +233,7 @@ TEST(PropertyFeasibleValues, AScanFindsNoOthersWithBounces) {
     task.servo.restitution = draws.uniform(0.05, 0.3);
     task.parameter = all_parameters[2 * static_cast<std::size_t>(i)];
     const Drive drive = drive_of(task.servo);
-    const FeasibleValues found = feasible_values(drive, task.parameter, task.target);
+    const FeasibleValues found = values(drive, task.parameter, task.target);
     EXPECT_TRUE(found.undecided.empty());
     const auto is_met_at = [&](double value) {
       return is_met(task.target, line_of(drive, task.parameter).answer_at(value));
@@ -297,14 +295,14 @@ TEST(PropertyFeasibleValues, AConditionMoreLosesNothing) {
     const Task task = drawn_task(draws);
     SCOPED_TRACE(testing::Message() << i << " " << describe(task));
     const Drive drive = drive_of(task.servo);
-    const FeasibleValues alone = feasible_values(drive, task.parameter, task.target);
+    const FeasibleValues alone = values(drive, task.parameter, task.target);
     Target more = task.target;
     if (i % steps != 0 && i % kinds == 3) {
       more.no_runaway = true;
     } else {
       more.limits.push_back(loose_limit(i % steps == 0 ? 3 : i % kinds));
     }
-    const FeasibleValues both = feasible_values(drive, task.parameter, more);
+    const FeasibleValues both = values(drive, task.parameter, more);
     EXPECT_EQ(both.kind, alone.kind);
     EXPECT_EQ(both.searched, alone.searched);
     if (both.intervals == alone.intervals) {
@@ -324,7 +322,7 @@ TEST(EdgeFeasibleValues, BesideAShaftWithoutFrictionAreFound) {
       .damping = 0.2, .inertia_ratio = 2.0, .friction_ratio = 0.0, .backlash = 0.3});
   for (const std::string_view parameter : all_parameters) {
     if (parameter == "contact.restitution") continue;
-    const FeasibleValues found = feasible_values(drive, parameter, no_hunting());
+    const FeasibleValues found = values(drive, parameter, no_hunting());
     EXPECT_EQ(found.intervals.empty(), parameter != "load.friction")
         << parameter;  // without friction at the load nothing else ends it
   }
@@ -342,4 +340,4 @@ TEST(EdgeTarget, ContradictionsAreFaults) {
 }
 
 }  // namespace
-}  // namespace gearlash::feasible_values_test
+}  // namespace gearlash::values_test

@@ -18,7 +18,7 @@
 #include "question/faults_of.hpp"
 #include "question/pd_drive.hpp"
 
-namespace gearlash::searched_values_test {
+namespace gearlash::analysed_values_test {
 namespace {
 
 using test::faults_of;
@@ -51,9 +51,9 @@ void expect_ends_are_ends(const Drive& drive, const FeasibleValues& found, const
 
 TEST(FeasibleValues, OfAnAxisInClosedFormAreThoseOfItsRange) {
   const Drive servo = normal_form(0.19, 2.0, 0.1, 0.3);
-  const FeasibleValues whole = feasible_values(servo, "servo.damping", always_at_rest());
+  const FeasibleValues whole = values(servo, "servo.damping", always_at_rest());
   const FeasibleValues part =
-      feasible_values(servo, logarithmic("servo.damping", 0.05, 5.0, 11), always_at_rest());
+      values(servo, logarithmic("servo.damping", 0.05, 5.0, 11), always_at_rest());
   EXPECT_EQ(part.kind, SearchKind::certified);
   ASSERT_EQ(part.intervals.size(), 1U);
   ASSERT_EQ(whole.intervals.size(), 1U);
@@ -63,8 +63,8 @@ TEST(FeasibleValues, OfAnAxisInClosedFormAreThoseOfItsRange) {
 
 TEST(SearchedValues, OfAGainEndWhereTheDriveBeginsToHunt) {
   const Drive drive = pd_drive();
-  const FeasibleValues found = feasible_values(
-      drive, logarithmic("controller.proportional", 0.5, 50.0, 9), always_at_rest());
+  const FeasibleValues found =
+      values(drive, logarithmic("controller.proportional", 0.5, 50.0, 9), always_at_rest());
   ASSERT_FALSE(found.intervals.empty());
   EXPECT_TRUE(found.undecided.empty());
   expect_ends_are_ends(drive, found, always_at_rest());
@@ -77,8 +77,7 @@ TEST(SearchedValues, OfABacklashThatKeepsACeiling) {
   drive.load.friction.coulomb = 0.0;
   const double ceiling = analyse(drive, {.ceiling = true}).value(Quantity::ceiling).value();
   const Target target = Target{}.require(Quantity::ceiling, {0.0, 3.0 * ceiling});
-  const FeasibleValues found =
-      feasible_values(drive, linear("gearbox.backlash", 1e-3, 1e-2, 4), target);
+  const FeasibleValues found = values(drive, linear("gearbox.backlash", 1e-3, 1e-2, 4), target);
   ASSERT_EQ(found.intervals.size(), 1U);
   EXPECT_EQ(found.intervals[0].low, 1e-3);
   EXPECT_NEAR(found.intervals[0].high, 6e-3, 1e-9 * 6e-3 + 1e-4 * 1e-3 * 9e-3);
@@ -103,7 +102,7 @@ TEST(OracleSearchedValues, OfAGainThatReachesABandwidth) {
       std::sqrt(2.0 * std::pow(0.03 * w * w, 2) + std::pow(0.05 * w, 2)) - 0.03 * w * w;
   const Target target = Target{}.require(Quantity::bandwidth, {frequency, Target::infinity});
   const Axis axis = logarithmic("controller.proportional", 0.5, 20.0, 9);
-  const FeasibleValues found = feasible_values(drive, axis, target);
+  const FeasibleValues found = values(drive, axis, target);
   ASSERT_EQ(found.intervals.size(), 1U);
   EXPECT_NEAR(found.intervals[0].low, gain, 1e-8 * gain);
   EXPECT_GE(analyse(with(drive, axis.path, found.intervals[0].low), {.loop = true})
@@ -127,7 +126,7 @@ TEST(OracleSearchedValues, OfAGainWithoutMuchOvershoot) {
   const double gain = std::pow(0.05 / (2.0 * damping), 2) / 0.03;
   const Target target = Target{}.require(Quantity::overshoot, {-Target::infinity, 0.1});
   const Axis axis = logarithmic("controller.proportional", 0.01, 1.0, 5);
-  const FeasibleValues found = feasible_values(drive, axis, target);
+  const FeasibleValues found = values(drive, axis, target);
   ASSERT_EQ(found.intervals.size(), 1U);
   EXPECT_EQ(found.intervals[0].low, 0.01);
   constexpr double of_stiffness = 1e-6;
@@ -148,10 +147,10 @@ TEST(EdgeSearchedValues, OfADriveWithoutAGapAreThoseOfItsLoopAndOfNoStep) {
   drive.gearbox.backlash = 0.1;
   const Axis axis = linear("gearbox.backlash", 0.0, 0.2, 3);
   const FeasibleValues loop =
-      feasible_values(drive, axis, Target{}.require(Quantity::bandwidth, {0.1, 100.0}));
+      values(drive, axis, Target{}.require(Quantity::bandwidth, {0.1, 100.0}));
   EXPECT_EQ(loop.intervals, (std::vector<Bounds>{{0.0, 0.2}}));
   const FeasibleValues step =
-      feasible_values(drive, axis, Target{}.require(Quantity::overshoot, {0.0, 10.0}));
+      values(drive, axis, Target{}.require(Quantity::overshoot, {0.0, 10.0}));
   ASSERT_EQ(step.intervals.size(), 1U);
   EXPECT_GT(step.intervals[0].low, 0.0);
   EXPECT_EQ(step.intervals[0].high, 0.2);
@@ -162,7 +161,7 @@ TEST(EdgeSearchedValues, OfADriveWithoutAGapAreThoseOfItsLoopAndOfNoStep) {
 TEST(SearchedValues, OfAChoiceAreWords) {
   const Drive drive = pd_drive();
   const FeasibleValues found =
-      feasible_values(drive, usual_axis(drive, "sensor.position"), always_at_rest());
+      values(drive, usual_axis(drive, "sensor.position"), always_at_rest());
   EXPECT_EQ(found.grid.size(), 3U);
   for (const double place : found.grid) {
     Drive changed = drive;
@@ -175,7 +174,7 @@ TEST(SearchedValues, OfAnUnsoundDriveDoNotMeetATarget) {
   Drive drive = pd_drive();
   drive.load.friction.breakaway = 6e-3;
   const FeasibleValues found =
-      feasible_values(drive, linear("load.coulomb", 1e-3, 1e-2, 4), Target{.no_runaway = true});
+      values(drive, linear("load.coulomb", 1e-3, 1e-2, 4), Target{.no_runaway = true});
   ASSERT_EQ(found.intervals.size(), 1U);
   EXPECT_LE(found.intervals[0].high, 6e-3);  // above it, breakaway is below Coulomb friction
   EXPECT_NEAR(found.intervals[0].high, 6e-3, 1e-6);
@@ -184,8 +183,8 @@ TEST(SearchedValues, OfAnUnsoundDriveDoNotMeetATarget) {
 TEST(SearchedValues, CanBeStopped) {
   test::Stopping stop(3);
   const Drive drive = pd_drive();
-  const FeasibleValues found = feasible_values(
-      drive, logarithmic("controller.proportional", 0.5, 50.0, 9), always_at_rest(), stop);
+  const FeasibleValues found =
+      values(drive, logarithmic("controller.proportional", 0.5, 50.0, 9), always_at_rest(), stop);
   EXPECT_TRUE(found.stopped);
   EXPECT_FALSE(found.undecided.empty());
 }
@@ -277,7 +276,7 @@ TEST(PropertySearchedValues, MeetTheirTargetAndMissNothingWiderThanTheGrid) {
   for (int i = 0; i < tasks; ++i) {
     const Task task = random_task(draws);
     SCOPED_TRACE(std::to_string(i) + " " + task.text);
-    const FeasibleValues found = feasible_values(task.drive, task.axis, task.target);
+    const FeasibleValues found = values(task.drive, task.axis, task.target);
     const auto meets = [&](double value) {
       return is_met(task.target, analyse(with(task.drive, task.text, value), {.ceiling = true}));
     };
@@ -308,11 +307,11 @@ TEST(PropertySearchedValues, AConditionMoreLosesNothing) {
   for (int i = 0; i < tasks; ++i) {
     const Task task = random_task(draws);
     SCOPED_TRACE(testing::Message() << i << " " << task.text);
-    const FeasibleValues alone = feasible_values(task.drive, task.axis, task.target);
+    const FeasibleValues alone = values(task.drive, task.axis, task.target);
     Target more = task.target;
     more.require(Quantity::bandwidth, {0.0, 1e9});
     more.require(Quantity::phase_margin, {0.0, 10.0});
-    const FeasibleValues both = feasible_values(task.drive, task.axis, more);
+    const FeasibleValues both = values(task.drive, task.axis, more);
     EXPECT_EQ(both.kind, alone.kind);
     EXPECT_EQ(both.intervals, alone.intervals);
     EXPECT_EQ(both.undecided, alone.undecided);
@@ -325,7 +324,7 @@ TEST(EdgeSearchedValues, FaultsAreToldAllAtOnce) {
   Target target;
   target.require(Quantity::amplitude, {0.2, 0.1});
   EXPECT_THAT(faults_of([&] {
-                (void)feasible_values(drive, Axis{"load.colour", {1.0}}, target);
+                (void)values(drive, Axis{"load.colour", {1.0}}, target);
               }),
               ElementsAre(HasSubstr("load.inertia = -1"), HasSubstr("load.colour"),
                           HasSubstr("must not contradict itself")));
@@ -336,12 +335,11 @@ TEST(EdgeSearchedValues, FaultsAreToldAllAtOnce) {
 TEST(EdgeSearchedValues, WhereNothingMeetsATargetThereIsAClosestOne) {
   const Drive drive = pd_drive();
   const Target impossible = Target{}.require(Quantity::amplitude, {1e3, Target::infinity});
-  const FeasibleValues found =
-      feasible_values(drive, linear("load.inertia", 1e-3, 1e-2, 3), impossible);
+  const FeasibleValues found = values(drive, linear("load.inertia", 1e-3, 1e-2, 3), impossible);
   EXPECT_TRUE(found.intervals.empty());
   ASSERT_TRUE(found.closest);
   EXPECT_TRUE(found.searched.contains(*found.closest));
 }
 
 }  // namespace
-}  // namespace gearlash::searched_values_test
+}  // namespace gearlash::analysed_values_test

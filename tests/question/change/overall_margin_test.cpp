@@ -1,5 +1,5 @@
 // Margins to the boundary of hunting against plain bisection, and against random directions.
-#include "question/change/hunting_margin.hpp"
+#include "question/change/overall_margin.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,10 +11,10 @@
 #include "base/traced_draws.hpp"
 #include "closed_form/growth_at_rest.hpp"
 #include "question/change/drives.hpp"
-#include "question/change/searched_margin.hpp"
+#include "question/change/margins.hpp"
 #include "question/change/target.hpp"
 
-namespace gearlash::hunting_margin_test {
+namespace gearlash::overall_margin_test {
 namespace {
 
 double growth_of(const Drivetrain& drive) {
@@ -210,7 +210,7 @@ TEST(PropertyHuntingMargin, OfAllTogetherIsShorterThanOfOne) {
   for (int i = 0; i < 10; ++i) {
     const NormalizedServo servo = drawn_servo(draws);
     SCOPED_TRACE(described(servo));
-    const HuntingMargin margin = hunting_margin(drive_of(servo));
+    const HuntingMargin margin = margins(drive_of(servo));
     ASSERT_EQ(margin.parameters.size(), all_parameters.size() - 1);  // all but restitution
     for (const ParameterMargin& one : margin.parameters) {
       const bool is_number = one.parameter == "load.friction" ||
@@ -292,4 +292,4 @@ TEST(EdgeHuntingMargin, IsFoundWhereGrowthAtRestIsNought) {
 }
 
 }  // namespace
-}  // namespace gearlash::hunting_margin_test
+}  // namespace gearlash::overall_margin_test

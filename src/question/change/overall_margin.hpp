@@ -1,13 +1,10 @@
-// The distance of a drive from the boundary of hunting, by single parameters and by all together.
+// The distance of a drive from the boundary of hunting, by all numbers of its drivetrain together.
 #pragma once
 
 #include "gearlash/design.hpp"
 #include "model/drivetrain.hpp"
 
 namespace gearlash {
-
-/// The nearest ends of intervals, where `quiet` are the values without hunting.
-ParameterMargin margin_of(const FeasibleValues& quiet);
 
 /// Solves for the OverallMargin:
 ///   min |x|  subject to  ln μ₀(J_M e^{x₁}, J_L e^{x₂}, F_M e^{x₃}, F_L e^{x₄}, K e^{x₅}) = 0.

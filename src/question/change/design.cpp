@@ -1,0 +1,58 @@
+#include "question/change/design.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/progress_part.hpp"
+#include "closed_form/closed_answer.hpp"
+#include "question/analyse.hpp"
+#include "question/axis.hpp"
+#include "question/final_servo.hpp"
+
+namespace gearlash {
+namespace {
+
+/// Without an axis the drive is as it is.
+DriveWithValue with_value(const Drive& base, const Axis* axis, double value, const Target& target,
+                          Progress& progress) {
+  Wanted wanted = wanted_for(target, base);
+  wanted.borders = true;
+  for (const Quantity cost : {Quantity::bandwidth, Quantity::overshoot}) {
+    ask_for(cost, base, wanted);
+  }
+  Drive drive = base;
+  if (axis != nullptr) set_on(*axis, drive, value);
+  return {.value = value, .answer = analyse(drive, wanted, progress)};
+}
+
+Judgement judge_present(const Drive& drive, const Target& target, const Answer& present) {
+  const Judgement at_point = is_met(target, present)     ? Judgement::all
+                             : is_known(target, present) ? Judgement::none
+                                                         : Judgement::some;
+  const std::optional<FinalServo> servo = final_servo(drive);
+  if (!servo || !servo_dynamics(servo->closed_form.servo).plastic_contact()) return at_point;
+  const auto [bounded, others] = parts_of(target, [](Quantity one) { return is_of_boxes(one); });
+  const Judgement proved =
+      judge(bounded, bounds_of(box_of(drive, *servo), flight_time_of(present)));
+  return is_empty(others) || proved == Judgement::none ? proved : std::min(proved, at_point);
+}
+
+}  // namespace
+
+Design design(const Drive& drive, const std::vector<Axis>& axes, const Target& target,
+              Progress& progress) {
+  Design found{.present = with_value(drive, nullptr, 0.0, target, progress)};
+  found.met = judge_present(drive, target, found.present.answer);
+  for (const Axis& axis : axes) {
+    ProgressPart part(progress, found.parameters.size(), axes.size());
+    if (!part.go_on(0.0)) break;
+    DesignedParameter parameter{.values = values(drive, axis, target, part)};
+    for (const double value : parameter.values.nearest_of_each()) {
+      parameter.results.push_back(with_value(drive, &axis, value, target, part));
+    }
+    found.parameters.push_back(std::move(parameter));
+  }
+  return found;
+}
+
+}  // namespace gearlash
