@@ -91,7 +91,7 @@ TEST(RegressionProved, DesignDoesNotContradictItself) {
   const NormalizedServo servo =
       servo_of(67.15170913401705, .07958454908395947, 2.043082623864931e-06);
   const Drive drive = drive_of(servo);
-  const FeasibleValues values = values(drive, "backlash", always_at_rest());
+  const FeasibleValues values = gearlash::values(drive, "backlash", always_at_rest());
   const Judgement at_present = judge(
       always_at_rest(),
       bounds_of(box_of(drive, *final_servo(drive)), std::numeric_limits<double>::quiet_NaN()));

@@ -160,7 +160,7 @@ struct Scan {
 void scan(const Task& task, int values, Scan& found_so_far) {
   SCOPED_TRACE(describe(task));
   const Drive drive = drive_of(task.servo);
-  const FeasibleValues found = values(drive, task.parameter, task.target);
+  const FeasibleValues found = gearlash::values(drive, task.parameter, task.target);
   EXPECT_EQ(found.kind, SearchKind::certified);
   for (const Bounds& sliver : found.undecided) {
     EXPECT_LT(sliver.high - sliver.low, 1e-4 * sliver.high);
