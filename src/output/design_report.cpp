@@ -317,7 +317,8 @@ std::string search_text(const DesignReport& report) {
   }
   if (grids.empty()) return "";
   std::string text =
-      "Searched, not proved: at each value of a grid the drive was followed from many starts (" +
+      "Searched, not proved: at each value of a grid the drive was followed from many starts, or "
+      "from a few where values on both sides miss the target (" +
       grids + "). What is narrower than the distance of two values may be missed.";
   if (located > 0.0) {
     text += " Ends of intervals are located to " + significant(located, 1) +
