@@ -47,6 +47,7 @@ def divided(values, unit):
 
 def ask(question):
     form, options = question["form"], dict(question["with"])
+    options.pop("cost", None)  # of lines in the picture that are not compared
     for option in ("parameters", "vary"):
         if option in options:
             options[option] = ",".join(NAMES.get(name, name)
