@@ -22,7 +22,7 @@ inline NormalizedServo servo_at(const Grid& grid, const MapPoint& place) {
 /// With a column for all that the closed form knows.
 inline Table table_of(std::size_t rows) { return Table(rows, closed_form_quantities); }
 
-/// Some points; see evaluate() in grid_evaluation.hpp.
+/// Some points; see evaluate() in question/family/evaluation.hpp.
 inline RowCount work_out(const Grid& grid, std::size_t first, Table& table,
                          const Workers& workers = {}, Progress& progress = no_progress()) {
   return evaluate(Family(grid), grid, first, table, progress, workers);
