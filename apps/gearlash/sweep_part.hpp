@@ -13,7 +13,7 @@ namespace gearlash {
 
 /// The progress of an unfinished sweep.
 struct SweepRecord {
-  RowCount count;  ///< of the points done
+  RowCount count;   ///< of the points done
   Checksum data{};  ///< of their values
 };
 

@@ -65,7 +65,7 @@ GridNetcdf reopened(const SweepPart& part, const GridContents& contents,
 }  // namespace
 
 RowCount run_sweep(const SweepFile& sweep, const Provenance& provenance,
-                    const std::filesystem::path& output, SweepStart start, Progress& progress) {
+                   const std::filesystem::path& output, SweepStart start, Progress& progress) {
   SweepPart part(output);
   if (part.is_begun() && start == SweepStart::anew) {
     throw InvalidInput({{"--output", part.shown_output(),

@@ -25,7 +25,7 @@ enum class SweepStart : bool {
 /// InvalidInput for an unfinished sweep that is not to be resumed, or that is of another sweep file
 /// or version. Throws OutputError if a file cannot be written or the disk has too little room.
 RowCount run_sweep(const SweepFile& sweep, const Provenance& provenance,
-                    const std::filesystem::path& output, SweepStart start,
-                    Progress& progress = no_progress());
+                   const std::filesystem::path& output, SweepStart start,
+                   Progress& progress = no_progress());
 
 }  // namespace gearlash

@@ -161,7 +161,8 @@ TEST(OracleDriveFile, AProportionalControllerIsTheServoOfALoop) {
                                                     "proportional = \"3 V/rad\"\n"));
   const auto servo = parse_servo(plain + std::string("[loop]\nerror_gain = \"3 V/rad\"\n"));
   EXPECT_EQ(file, servo);
-  EXPECT_EQ(drive::proportional_drivetrain(drive::drive_of(servo.drivetrain.value())), servo.drivetrain);
+  EXPECT_EQ(drive::proportional_drivetrain(drive::drive_of(servo.drivetrain.value())),
+            servo.drivetrain);
   // Whatever it has besides has no closed form.
   const auto with = [&](const std::string& more) {
     return closed_form_servo(
@@ -425,8 +426,9 @@ TEST(EdgeDriveFile, ADelayOfAHundredPeriodsIsOneInSpiteOfRounding) {
 }
 
 TEST(EdgeDriveFile, TolerancesAreCheckedWhateverIsAsked) {
-  EXPECT_THAT(refusals_with({"motor.inertia", "2 kg cm2 ± 1000 %"}),
-              ElementsAre(HasSubstr("motor.inertia = 2 kg cm2 ± 1000 %: must not fall below zero")));
+  EXPECT_THAT(
+      refusals_with({"motor.inertia", "2 kg cm2 ± 1000 %"}),
+      ElementsAre(HasSubstr("motor.inertia = 2 kg cm2 ± 1000 %: must not fall below zero")));
   EXPECT_THAT(refusals_with({"motor.inertia", "2 kg cm2 ± 10 %"}), IsEmpty());
 }
 

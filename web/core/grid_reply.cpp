@@ -11,8 +11,8 @@
 #include "picture/grid_map.hpp"
 #include "picture/grid_words.hpp"
 #include "picture_reply.hpp"
-#include "question/map/bifurcations.hpp"
 #include "question/family/evaluation.hpp"
+#include "question/map/bifurcations.hpp"
 
 namespace gearlash::web {
 namespace {
@@ -63,8 +63,7 @@ Json map_reply(const Json& request, const WrittenDrive& written, Numbers& number
   require_few(grid);
   constexpr std::array quantities = {Quantity::growth_at_rest, Quantity::amplitude};
   table.table = Table(grid.size(), quantities);
-  const RowCount count =
-      evaluate(Family(grid), grid, 0, table.table, progress);
+  const RowCount count = evaluate(Family(grid), grid, 0, table.table, progress);
   add_borders(table, progress);
   Json json = contour_map_json(map_of(table, Quantity::amplitude), numbers);
   json["axes"] = {{"x", axis_facts(grid.axes[1], grid.drive, written.angle)},

@@ -60,8 +60,8 @@ std::size_t box_length(const Grid& grid, std::size_t first, std::size_t most) {
 }
 
 RowCount evaluate_in_pieces(const Grid& grid, std::span<const Quantity> quantities,
-                             std::size_t first, std::size_t longest, const GridSink& take,
-                             Progress& progress, const Stopwatch& seconds) {
+                            std::size_t first, std::size_t longest, const GridSink& take,
+                            Progress& progress, const Stopwatch& seconds) {
   const Family family(grid);
   const std::size_t points = grid.size();
   const auto share_of = [&](std::size_t done) {

@@ -32,8 +32,8 @@ using Stopwatch = std::function<double()>;
 /// or the end of a box. Searched drives have the same answers in pieces as at once if `longest` is
 /// a multiple of longest_run.
 RowCount evaluate_in_pieces(const Grid& grid, std::span<const Quantity> quantities,
-                             std::size_t first, std::size_t longest, const GridSink& take,
-                             Progress& progress = no_progress(), const Stopwatch& seconds = {});
+                            std::size_t first, std::size_t longest, const GridSink& take,
+                            Progress& progress = no_progress(), const Stopwatch& seconds = {});
 
 /// The number of points from `first` on, `most` at most, that form a box of the grid: some values
 /// of one axis with all values of the axes after it. Precondition: `first` is 0 or the end of such
