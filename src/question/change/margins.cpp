@@ -5,10 +5,12 @@
 
 #include "base/progress_part.hpp"
 #include "gearlash/analyse.hpp"
+#include "gearlash/parameter.hpp"
 #include "question/axis.hpp"
 #include "question/change/analysed_values.hpp"
 #include "question/change/overall_margin.hpp"
 #include "question/change/target.hpp"
+#include "question/final_servo.hpp"
 
 namespace gearlash {
 namespace {

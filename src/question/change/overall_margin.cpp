@@ -6,16 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "base/progress_part.hpp"
 #include "base/special_numbers.hpp"
 #include "closed_form/growth_at_rest.hpp"
-#include "gearlash/analyse.hpp"
-#include "gearlash/parameter.hpp"
 #include "numeric/differences.hpp"
 #include "numeric/linear_algebra.hpp"
-#include "question/change/margins.hpp"
-#include "question/change/target.hpp"
-#include "question/final_servo.hpp"
 
 namespace gearlash {
 namespace {
