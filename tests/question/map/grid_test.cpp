@@ -11,6 +11,7 @@
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
 #include "question/family/evaluation.hpp"
+#include "question/map/grid_pieces.hpp"
 #include "question/map/servo_grids.hpp"
 
 namespace gearlash::grid_test {
