@@ -162,7 +162,7 @@ LimitCycleAnalysis analyse_beside(const NormalizedServo& servo, const LimitCycle
     analyse_plastic(dynamics, analysis);
   } else if (auto cycle = bouncing_cycle_beside(servo, *near, servo_near)) {
     cycle->stable = true;  // as the one near it; it may just have ceased to be
-    analysis.cycles.push_back(*std::move(cycle));
+    analysis.cycles.push_back(*cycle);
   }
   return analysis;
 }

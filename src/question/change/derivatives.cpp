@@ -96,7 +96,7 @@ Jacobian jacobian_of(const Drive& drive, std::span<const Quantity> quantities,
   for (const Quantity quantity : quantities) jacobian.values.push_back(answer.value(quantity));
   jacobian.slopes.resize(quantities.size() * lines.size());
   for (std::size_t j = 0; j < lines.size(); ++j) {
-    const auto answer_at = [&](double value) {
+    const auto answer_at = [&](double value) -> Answer {
       if (is_plastic_restitution(jacobian.paths[j], jacobian.present[j])) return answer;
       if (lines[j].is_backlash() && lines[j].present() > 0.0) return with_backlash(answer, value);
       const std::optional<FinalServo> beside = lines[j].at(value);

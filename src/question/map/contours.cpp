@@ -119,7 +119,7 @@ std::vector<double> round_levels(std::vector<double> values) {
   const double high = quantile(0.98);
   if (!(low < high)) return {};
   if (high <= 12.0 * low) return even_levels(low, quantile(0.92));
-  const std::vector<double> fine = levels_by_factors(low, high, fine_digits);
+  std::vector<double> fine = levels_by_factors(low, high, fine_digits);
   if (fine.size() <= most_levels) return fine;
   return thinned_out(levels_by_factors(low, high, coarse_digits));
 }
