@@ -77,7 +77,7 @@ Jacobian jacobian_of(const Drive& drive, std::span<const Quantity> quantities,
   const Drive closed = *closed_form_drive(drive);
   const FinalServo servo = servo_without_checks(closed);
   const PresentServo present(servo);
-  const Answer answer = present.answer_beside(servo);
+  const Answer known = present.answer_beside(servo);
   Jacobian jacobian{.reason = present.reason};
   std::vector<ClosedFormLine> lines;
   RangeCheck check;
@@ -93,12 +93,12 @@ Jacobian jacobian_of(const Drive& drive, std::span<const Quantity> quantities,
   }
   require_none(check.faults());
   jacobian.quantities.assign(quantities.begin(), quantities.end());
-  for (const Quantity quantity : quantities) jacobian.values.push_back(answer.value(quantity));
+  for (const Quantity quantity : quantities) jacobian.values.push_back(known.value(quantity));
   jacobian.slopes.resize(quantities.size() * lines.size());
   for (std::size_t j = 0; j < lines.size(); ++j) {
     const auto answer_at = [&](double value) -> Answer {
-      if (is_plastic_restitution(jacobian.paths[j], jacobian.present[j])) return answer;
-      if (lines[j].is_backlash() && lines[j].present() > 0.0) return with_backlash(answer, value);
+      if (is_plastic_restitution(jacobian.paths[j], jacobian.present[j])) return Answer(known);
+      if (lines[j].is_backlash() && lines[j].present() > 0.0) return with_backlash(known, value);
       const std::optional<FinalServo> beside = lines[j].at(value);
       return beside ? present.answer_beside(*beside) : Answer{};
     };
