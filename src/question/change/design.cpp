@@ -45,12 +45,12 @@ Design design(const Drive& drive, const std::vector<Axis>& axes, const Target& t
   found.met = judge_present(drive, target, found.present.answer);
   for (const Axis& axis : axes) {
     ProgressPart part(progress, found.parameters.size(), axes.size());
-    if (!part.go_on(0.0)) break;
     DesignedParameter parameter{.values = values(drive, axis, target, part)};
     for (const double value : parameter.values.nearest_of_each()) {
       parameter.results.push_back(with_value(drive, &axis, value, target, part));
     }
     found.parameters.push_back(std::move(parameter));
+    if (!part.go_on(1.0)) break;
   }
   return found;
 }

@@ -28,7 +28,8 @@ struct Design {
   /// closed form answers with plastic contact. Some: it stands on a limit to within rounding, or it
   /// is not known.
   Judgement met = Judgement::some;
-  std::vector<DesignedParameter> parameters{};  ///< as far as the work was not stopped
+  /// Where the work was stopped the last of them is not searched to its end.
+  std::vector<DesignedParameter> parameters{};
 };
 
 /// values() of each axis, and what the drive does with the nearest of them. Every step is the usual
