@@ -213,7 +213,8 @@ TEST(DesignCommand, OfAnyDriveAreItsAnswersThoseOfLimitCycle) {
   EXPECT_LT(loop["bandwidth"], present["bandwidth"]);
   const Outcome text = run_tool(words);
   EXPECT_THAT(text.out, HasSubstr("at present: hunts: ±22.8 arcmin at 3.91 Hz, not met"));
-  EXPECT_THAT(text.out, HasSubstr("controller.proportional, 5 values from 10 N m/rad"));
+  EXPECT_THAT(text.out,
+              HasSubstr("(controller.proportional, 5 values\nfrom 10 N m/rad to 160 N m/rad)"));
   EXPECT_THAT(text.out, HasSubstr("overshoot  settles  bandwidth  phase margin\n"));
 }
 
