@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "base/progress_part.hpp"
 #include "gearlash/analyse.hpp"
@@ -10,27 +11,14 @@
 #include "question/change/analysed_values.hpp"
 #include "question/change/overall_margin.hpp"
 #include "question/change/target.hpp"
+#include "question/family/analysed_line.hpp"
 #include "question/final_servo.hpp"
 
 namespace gearlash {
 namespace {
 
-/// Values of a parameter of a drive.
-class ParameterValues {
- public:
-  ParameterValues(const Drive& drive, const Axis& axis) : drive_(drive), axis_(axis) {}
-
-  bool are_words() const { return !parameter_of(axis_, drive_)->choices.empty(); }
-  bool are_sound_at(double value) const {
-    Drive changed = drive_;
-    set_on(axis_, changed, value);
-    return faults(changed).empty();
-  }
-
- private:
-  const Drive& drive_;
-  const Axis& axis_;
-};
+/// Whether the drive with a value of the parameter is sound.
+using IsSoundAt = std::function<bool(double)>;
 
 bool is_undecided(const FeasibleValues& quiet, double value) {
   return std::any_of(quiet.undecided.begin(), quiet.undecided.end(),
@@ -39,20 +27,20 @@ bool is_undecided(const FeasibleValues& quiet, double value) {
 
 /// Keeps a border of a drive that rests only if the drive is known to hunt beyond it.
 void keep_if_hunting_begins(std::optional<double>& border, double outwards,
-                            const FeasibleValues& quiet, const ParameterValues& values) {
+                            const FeasibleValues& quiet, const IsSoundAt& is_sound_at) {
   if (!border) return;
   const double range = quiet.searched.high - quiet.searched.low;
   constexpr double nearest = 1e-3;  // of `located`, of the range: what counts as one value
   const double apart = 2.0 * quiet.located * std::max(std::abs(*border), nearest * range);
-  if (is_undecided(quiet, *border) || !values.are_sound_at(*border + outwards * apart)) {
+  if (is_undecided(quiet, *border) || !is_sound_at(*border + outwards * apart)) {
     border.reset();
   }
 }
 
-void set_choices(const FeasibleValues& quiet, const ParameterValues& values,
+void set_choices(const FeasibleValues& quiet, const IsSoundAt& is_sound_at,
                  ParameterMargin& margin) {
   for (const double word : quiet.grid) {
-    if (word == quiet.present || is_undecided(quiet, word) || !values.are_sound_at(word)) continue;
+    if (word == quiet.present || is_undecided(quiet, word) || !is_sound_at(word)) continue;
     if (quiet.contains(word) == margin.hunts) margin.choices.push_back(word);
   }
 }
@@ -113,11 +101,13 @@ ParameterMargin parameter_margin(const Drive& drive, const Axis& axis, bool hunt
   const FeasibleValues quiet = values(drive, axis, always_at_rest(), progress);
   ParameterMargin margin = margin_of(quiet);
   margin.hunts = hunts;
-  const ParameterValues values(drive, axis);
-  if (values.are_words()) {
+  const IsSoundAt is_sound_at = [along = drives_along(axis, drive)](double value) {
+    return faults(along(value)).empty();
+  };
+  if (!parameter_of(axis, drive)->choices.empty()) {
     margin.below.reset();
     margin.above.reset();
-    set_choices(quiet, values, margin);
+    set_choices(quiet, is_sound_at, margin);
     return margin;
   }
   if (hunts || quiet.kind != SearchKind::searched) return margin;
@@ -125,8 +115,8 @@ ParameterMargin parameter_margin(const Drive& drive, const Axis& axis, bool hunt
     margin.below.reset();
     margin.above.reset();
   }
-  keep_if_hunting_begins(margin.below, -1.0, quiet, values);
-  keep_if_hunting_begins(margin.above, 1.0, quiet, values);
+  keep_if_hunting_begins(margin.below, -1.0, quiet, is_sound_at);
+  keep_if_hunting_begins(margin.above, 1.0, quiet, is_sound_at);
   return margin;
 }
 
