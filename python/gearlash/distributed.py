@@ -136,7 +136,7 @@ def study(series: TolerancedDrive, sampling: SamplePlan, questions: StudyQuestio
         As :func:`gearlash.tolerance` makes them.
     client : distributed.Client
     most : int, optional
-        Samples of a piece at most, rounded up to eight; default a sixty-fourth of all.
+        Samples of a piece at most, rounded up to 64s; default a sixty-fourth of all.
 
     Returns
     -------
@@ -144,8 +144,8 @@ def study(series: TolerancedDrive, sampling: SamplePlan, questions: StudyQuestio
         Equal to that of :func:`gearlash.tolerance` to the bit.
     """
     samples = sampling.points * sampling.replicates
-    run = 8  # of which some are followed from their neighbours
-    step = -(-(most or samples // 64 or 1) // run) * run
+    block = 64  # of which some are followed from their neighbours
+    step = -(-(most or samples // 64 or 1) // block) * block
     calls = [(series, sampling, questions, first, min(step, samples - first))
              for first in range(0, samples, step)]
     parts = _dealt_out(client, _answer_samples, calls, progress)

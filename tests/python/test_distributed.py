@@ -68,7 +68,7 @@ def test_a_killed_worker_loses_nothing(client, pd_drive):
 def test_a_tolerance_study_is_that_of_one_process(client, pd_drive, servo):
     varied = {"gearbox.backlash": gearlash.UniformBetween(1e-3, 3e-3),
               "load.inertia": gearlash.Normal(5e-3, 3e-4)}
-    for drive, spread, samples in ((pd_drive, varied, 64), (
+    for drive, spread, samples in ((pd_drive, varied, 128), (
             servo, {"servo.damping": gearlash.UniformBetween(0.7, 1.0)}, 2048)):
         here = gearlash.tolerance(drive, spread, samples=samples)
         assert gearlash.tolerance(drive, spread, samples=samples, client=client) == here

@@ -101,16 +101,18 @@ bool SampleAnswers::fill(const FamilyRows& rows, std::span<SampleResult> results
     return !evaluate(family_, rows, {.take = take}, progress, workers_).stopped;
   }
   const std::size_t width = family_.width();
-  std::vector<std::size_t> places(rows.count);  // of each row of a run, before it was ordered
-  const auto fill_run = [&](std::size_t first, std::span<double> values) {
-    const std::size_t count = std::min(run_of_samples, rows.count - first);
-    std::vector<double> unordered(values.size());
-    rows.fill(first, unordered);
-    const std::vector<std::size_t> order = chain_of(unordered, count, widths_);
-    for (std::size_t i = 0; i < count; ++i) {
-      places[first + i] = first + order[i];
-      std::copy_n(unordered.begin() + static_cast<std::ptrdiff_t>(order[i] * width), width,
-                  values.begin() + static_cast<std::ptrdiff_t>(i * width));
+  std::vector<std::size_t> places(rows.count);  // of each ordered row
+  const auto fill_run = [&](std::size_t from, std::span<double> values) {
+    const std::size_t first = from / block_of_samples * block_of_samples;
+    const std::size_t count = std::min(block_of_samples, rows.count - first);
+    std::vector<double> block(count * width);
+    rows.fill(first, block);
+    const std::vector<std::size_t> order = chain_of(block, count, widths_);
+    for (std::size_t row = from; row < from + values.size() / width; ++row) {
+      const std::size_t place = order[row - first];
+      places[row] = first + place;
+      std::copy_n(block.begin() + static_cast<std::ptrdiff_t>(place * width), width,
+                  values.begin() + static_cast<std::ptrdiff_t>((row - from) * width));
     }
   };
   AskedOfRows asked{.take = [&](std::size_t row,
@@ -118,8 +120,7 @@ bool SampleAnswers::fill(const FamilyRows& rows, std::span<SampleResult> results
                     .wanted = wanted_for(target_, family_.base()),
                     .one_by_one = true};
   asked.wanted.borders = true;  // of each sample the amplitude counts
-  const FamilyRows in_runs{
-      .count = rows.count, .fill = fill_run, .line = run_of_samples, .run = run_of_samples};
+  const FamilyRows in_runs{.count = rows.count, .fill = fill_run, .line = block_of_samples};
   return !evaluate(family_, in_runs, asked, progress, workers_).stopped;
 }
 

@@ -48,9 +48,9 @@ struct SampleResult {
 };
 using SampleResults = std::vector<SampleResult>;
 
-/// The longest run of samples of which only the ends are certain to be analysed afresh. Each begins
-/// at a multiple of it.
-inline constexpr std::size_t run_of_samples = 8;
+/// Samples that are searched are ordered within blocks of so many, so that each differs little from
+/// the one before and may be followed from it. Each block begins at a multiple of it.
+inline constexpr std::size_t block_of_samples = 64;
 
 /// What drives of a series do.
 class SampleAnswers {

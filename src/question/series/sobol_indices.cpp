@@ -84,7 +84,7 @@ std::vector<double> mixed_values(const std::vector<double>& both_sets, std::size
 }
 
 /// The sums of the drives of mixed_values(); `usual_amplitude` is subtracted from amplitudes.
-ReplicateSums sums_of(const detail::SampleResults& results, std::size_t numbers,
+ReplicateSums sums_of(std::span<const detail::SampleResult> results, std::size_t numbers,
                       double usual_amplitude) {
   ReplicateSums sums{Sums(numbers), Sums(numbers)};
   for (const detail::SampleResult& result : results) sums.refused += result.refused ? 1 : 0;
@@ -200,15 +200,20 @@ SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const SampleP
   std::vector<ReplicateSums> replicates(sampling.replicates, {Sums(numbers), Sums(numbers)});
   bool all_done = true;
   for (std::size_t first = 0; first < sampling.samples() && all_done;) {
-    const std::size_t replicate = first / sampling.points;
-    const std::size_t end = std::min(first + points_at_a_time, (replicate + 1) * sampling.points);
+    const std::size_t end = std::min(first + points_at_a_time, sampling.samples());
     ProgressPart part(progress, static_cast<double>(first) / samples,
                       static_cast<double>(end) / samples);
     const std::vector<double> mixed = mixed_values(values.of(first, end - first), numbers);
     detail::SampleResults results((end - first) * (numbers + 2));
     all_done = answers.fill(rows_of(mixed, numbers), results, part);
-    replicates[replicate].add(sums_of(results, numbers, usual_amplitude));
-    first = end;
+    for (std::span<const detail::SampleResult> left = results; !left.empty();) {
+      const std::size_t replicate = first / sampling.points;
+      const std::size_t next = std::min(end, (replicate + 1) * sampling.points);
+      const std::size_t count = (next - first) * (numbers + 2);
+      replicates[replicate].add(sums_of(left.first(count), numbers, usual_amplitude));
+      left = left.subspan(count);
+      first = next;
+    }
   }
   SensitivityStudy study = study_of(drive, sampling, replicates, usual_amplitude);
   study.stopped = !all_done;

@@ -22,7 +22,7 @@ ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& 
 /// What samples do, from number `first` on, numbered replicate by replicate: of a whole study, or
 /// of a part that is dealt out to one of several machines. Empty if progress stopped it. Throws
 /// InvalidInput as study_tolerances(), and for samples that the plan does not have. Equal to those
-/// of a whole study if it begins and ends between two runs (run_of_samples).
+/// of a whole study if it begins and ends between two blocks (block_of_samples).
 std::optional<detail::SampleResults> answer_samples(const TolerancedDrive& drive,
                                                     const SamplePlan& sampling,
                                                     const StudyQuestions& questions,
