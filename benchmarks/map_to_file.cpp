@@ -136,7 +136,7 @@ void compute_only(const Grid& grid, MapTimes& fastest) {
   std::vector<double> growth;
   growth.reserve(grid.size());
   keep_faster(fastest.servos, spent_on([&] {
-                evaluate_in_pieces(grid, closed_form_quantities, 0, points_at_a_time,
+                evaluate_in_pieces(grid, solved_quantities, 0, points_at_a_time,
                                    [&](const GridPiece& piece) {
                                      const auto& column = piece.table[Quantity::growth_at_rest];
                                      growth.insert(growth.end(), column.begin(), column.end());
@@ -151,8 +151,7 @@ void make_file(const Grid& grid, MapTimes& fastest) {
   const TemporaryFolder folder;
   OutputFile output(folder.path() / file_name);
   const Spent file = spent_on([&] {
-    const std::vector<Quantity> quantities(closed_form_quantities.begin(),
-                                           closed_form_quantities.end());
+    const std::vector<Quantity> quantities(solved_quantities.begin(), solved_quantities.end());
     GridNetcdf netcdf = GridNetcdf::create(
         output.hidden_file(), output.shown_name(),
         {.grid = grid, .quantities = quantities, .provenance = {command_text, version}});

@@ -24,7 +24,7 @@ std::vector<NormalizedServo> servos_of(const Grid& grid) {
   return servos;
 }
 
-Table table_of(std::size_t rows) { return Table(rows, closed_form_quantities); }
+Table table_of(std::size_t rows) { return Table(rows, solved_quantities); }
 
 std::vector<NormalizedServo> wide_draw() {
   constexpr std::uint64_t seed = 1960;

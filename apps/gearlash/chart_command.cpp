@@ -110,10 +110,11 @@ void add_chart_command(Command& app, Action& action) {
   add_grid_options(*command, options->grid,
                    "Draw curves=FILE, the quantity over --x, or bifurcation=FILE, all cycles\n"
                    "over --x as stable and unstable branches with their borders;");
-  command->footer(
+  set_action(
+      *command, action, options,
       "Without --backlash, amplitudes are in backlashes, because they are proportional to it.\n\n" +
-      help_footer(chart_examples));
-  set_action(*command, action, options, run);
+          help_footer(chart_examples),
+      run);
 }
 
 }  // namespace gearlash::cli

@@ -37,13 +37,14 @@ void add_show_command(Command& app, Action& action);
 void add_explore_command(Command& app, Action& action);
 void add_thesis_command(Command& app, Action& action);
 
-/// Makes `run(*options, provenance)` the action of the command. The type of the options chooses
-/// among the functions `run` of all verbs.
+/// Makes `run(*options, provenance)` the action of the command, and the footer the end of its help.
+/// The type of the options chooses among the functions `run` of all verbs.
 template <class Options>
 using Run = ExitStatus (*)(const Options& options, const Provenance& provenance);
 template <class Options>
 void set_action(Command& command, Action& action, const std::shared_ptr<Options>& options,
-                std::type_identity_t<Run<Options>> run) {
+                const std::string& footer, std::type_identity_t<Run<Options>> run) {
+  command.footer(footer);
   command.callback([options, &action, run] {
     action = [options, run](const Provenance& provenance) { return run(*options, provenance); };
   });

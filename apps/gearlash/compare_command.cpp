@@ -222,8 +222,7 @@ void add_compare_command(Command& app, Action& action) {
   command->add_flag("--brief", options->brief, "Print the headlines alone");
   add_plot_option(*command, options->plots, "Draw time=FILE, the step responses;");
   add_limit_options(*command, options->limits);
-  command->footer(help_footer(compare_examples));
-  set_action(*command, action, options, run);
+  set_action(*command, action, options, help_footer(compare_examples), run);
 }
 
 }  // namespace gearlash::cli

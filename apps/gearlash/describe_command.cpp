@@ -149,8 +149,7 @@ void add_describe_command(Command& app, Action& action) {
                    "the loop")
       ->type_name("PART");
   add_limit_options(*command, options->limits);
-  command->footer(describe_explanation + help_footer(describe_examples));
-  set_action(*command, action, options, run);
+  set_action(*command, action, options, describe_explanation + help_footer(describe_examples), run);
 }
 
 }  // namespace gearlash::cli

@@ -10,16 +10,13 @@
 #include "command.hpp"
 #include "grid_options.hpp"
 #include "input/axis_text.hpp"
-#include "input/target_text.hpp"
 #include "limit_options.hpp"
 #include "machine_faults.hpp"
-#include "model/reduced_drive.hpp"
 #include "output/design_report.hpp"
 #include "output/output_file.hpp"
 #include "picture/grid_map.hpp"
 #include "plot_option.hpp"
 #include "question/axis.hpp"
-#include "question/change/closed_form_line.hpp"
 #include "question/change/design.hpp"
 #include "question/change/values.hpp"
 #include "servo_options.hpp"
@@ -141,12 +138,12 @@ void check_options(const DesignOptions& options, Faults& faults) {
 std::vector<Axis> read_axes(const DesignOptions& options, const Drive& drive, Faults& faults) {
   std::vector<std::string> texts = options.parameters.empty() ? options.vary : options.parameters;
   if (texts.empty()) texts = usual_parameters(drive);
-  std::vector<Axis> axes;
-  for (const std::string& text : texts) {
-    axes.push_back(collect_axis(
-        [&](auto* out) { return read_axis_to_search("--parameters", text, drive, out); }, faults));
-  }
-  return axes;
+  return collect_axes(
+      texts,
+      [&](const auto& text, auto* out) {
+        return read_axis_to_search("--parameters", text, drive, out);
+      },
+      faults);
 }
 
 ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
@@ -154,13 +151,7 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
   check_options(options, faults);
   const std::vector<Plot> plots = read_plots(options.plots, {"region"}, faults);
   const std::optional<WrittenDrive> written = resolve_drive(options.servo, files_of(plots), faults);
-  const bool has_time = !written || !is_normalized(written->drive);
-  const Target target = faults.collect(
-      [&] {
-        return read_target("--target", options.target,
-                           has_time ? TimeScale::known : TimeScale::unknown);
-      },
-      Target{});
+  const Target target = collect_target(options.target, written ? &written->drive : nullptr, faults);
   if (!written) faults.require_none();
   const Drive& drive = written->drive;
   const std::vector<Axis> axes = read_axes(options, drive, faults);
@@ -235,8 +226,7 @@ void add_design_command(Command& app, Action& action) {
   command->add_option("--format", options->format, "Choose the format: text (default) or json")
       ->type_name("FORMAT");
   add_limit_options(*command, options->limits);
-  command->footer(help_footer(design_examples));
-  set_action(*command, action, options, run);
+  set_action(*command, action, options, help_footer(design_examples), run);
 }
 
 }  // namespace gearlash::cli

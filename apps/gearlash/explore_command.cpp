@@ -1,4 +1,5 @@
 // gearlash explore: the drive in a page of its own, which any browser opens without a network.
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -80,8 +81,8 @@ Tables take_tables(Drive& drive, const std::string& file) {
 
 /// Whether options other than --set change what the file has.
 bool has_number_options(const ServoOptions& options) {
-  return options.damping || options.inertia_ratio || options.friction_ratio || options.backlash ||
-         options.restitution || options.sensor;
+  const auto is_typed = [](const auto& number) { return number.has_value(); };
+  return options.sensor || std::any_of(options.numbers.begin(), options.numbers.end(), is_typed);
 }
 
 /// The author's own text with the settings, so that the page shows both.
@@ -140,8 +141,7 @@ void add_explore_command(Command& app, Action& action) {
                    "Write this page, .html: one file, which works offline and in a mail")
       ->type_name("FILE")
       ->required();
-  command->footer(help_footer(explore_examples));
-  set_action(*command, action, options, run);
+  set_action(*command, action, options, help_footer(explore_examples), run);
 }
 
 }  // namespace gearlash::cli

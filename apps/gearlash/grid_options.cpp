@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
@@ -11,7 +10,6 @@
 
 #include "base/progress_part.hpp"
 #include "base/range_check.hpp"
-#include "input/target_text.hpp"
 #include "machine_faults.hpp"
 #include "picture/grid_map.hpp"
 #include "question/family/evaluation.hpp"
@@ -24,25 +22,21 @@ namespace {
 
 constexpr std::size_t most_points = 10'000'000;  // a gigabyte
 
-/// Options for parameters that an axis may vary.
-struct RivalOption {
-  std::string_view path;
-  const char* name;
-  std::optional<std::string> ServoOptions::*typed;
-};
-constexpr std::array<RivalOption, 7> rivals = {
-    {{"servo.damping", "--damping", &ServoOptions::damping},
-     {"servo.inertia_ratio", "--inertia-ratio", &ServoOptions::inertia_ratio},
-     {"servo.friction_ratio", "--friction-ratio", &ServoOptions::friction_ratio},
-     {"servo.backlash", "--backlash", &ServoOptions::backlash},
-     {"gearbox.backlash", "--backlash", &ServoOptions::backlash},
-     {"contact.restitution", "--restitution", &ServoOptions::restitution},
-     {"sensor.position", "--sensor", &ServoOptions::sensor}}};
+/// The index of the normal form's number that an option gives for a path; their count for any
+/// other.
+std::size_t number_with(std::string_view path) {
+  std::size_t i = 0;
+  while (i < normal_form_numbers.size() && path != normal_form_numbers[i].path &&
+         path != path_of(normal_form_numbers[i], false)) {
+    ++i;
+  }
+  return i;
+}
 
 /// A value for a parameter on an axis, which no option gives without a file.
-void put_in_stand_in(ServoOptions& options, const RivalOption& rival) {
-  const bool is_number = rival.typed != &ServoOptions::sensor;
-  if (options.file.empty() && is_number && !(options.*rival.typed)) options.*rival.typed = "0.5";
+void put_in_stand_in(ServoOptions& options, std::size_t number) {
+  std::optional<std::string>& typed = options.numbers[number];
+  if (options.file.empty() && !typed) typed = "0.5";
 }
 
 std::vector<AxisText> split_axes(const std::vector<AxisOption>& options, Faults& faults) {
@@ -59,9 +53,14 @@ std::vector<AxisText> split_axes(const std::vector<AxisOption>& options, Faults&
 void refuse_given(const ServoOptions& options, const AxisText& axis, const std::string& path,
                   Faults& faults) {
   const std::string permitted = "must be left out: " + axis.field + " varies it";
-  for (const RivalOption& rival : rivals) {
-    const std::optional<std::string>& typed = options.*rival.typed;
-    if (rival.path == path && typed) faults.add({rival.name, shown(*typed), permitted, ""});
+  const std::size_t number = number_with(path);
+  const bool is_number = number < options.numbers.size();
+  if (is_number && options.numbers[number]) {
+    faults.add({option_name(normal_form_numbers[number].name), shown(*options.numbers[number]),
+                permitted, ""});
+  }
+  if (path == "sensor.position" && options.sensor) {
+    faults.add({"--sensor", shown(*options.sensor), permitted, ""});
   }
   for (const std::string& setting : options.settings) {
     if (setting.substr(0, setting.find('=')) != path) continue;
@@ -80,13 +79,12 @@ std::optional<WrittenDrive> read_fixed_drive(const ServoOptions& options,
     const std::string path = path_named(axis.name, any);
     are_all_there = are_all_there && parameter_of({.path = path}, any) != nullptr;
     refuse_given(options, axis, path, faults);
-    for (const RivalOption& rival : rivals) {
-      if (rival.path == path) put_in_stand_in(completed, rival);
-    }
+    const std::size_t number = number_with(path);
+    if (number < completed.numbers.size()) put_in_stand_in(completed, number);
   }
-  if (options.file.empty() && !completed.backlash) completed.backlash = "1";
-  for (const RivalOption& rival : rivals) {
-    if (!are_all_there && rival.path != "contact.restitution") put_in_stand_in(completed, rival);
+  if (options.file.empty() && !completed.backlash()) completed.backlash() = "1";
+  for (std::size_t i = 0; i < completed.numbers.size() && !are_all_there; ++i) {
+    if (normal_form_numbers[i].path != "contact.restitution") put_in_stand_in(completed, i);
   }
   return resolve_drive(completed, outputs, faults);
 }
@@ -131,14 +129,8 @@ void read_outputs(const GridOptions& options, const std::vector<std::string>& ki
 /// The target, and the place of a file's drive on the map.
 void read_map_target(const GridOptions& options, bool is_known, GridTask& task, Faults& faults) {
   if (options.target.empty()) return;
-  const bool has_time = !is_known || !is_normalized(task.grid.drive);
   task.target_text = options.target;
-  task.target = faults.collect(
-      [&] {
-        return read_target("--target", options.target,
-                           has_time ? TimeScale::known : TimeScale::unknown);
-      },
-      Target{});
+  task.target = collect_target(options.target, is_known ? &task.grid.drive : nullptr, faults);
   const bool has_present = !options.servo.file.empty() && task.grid.axes.size() == 2;
   if (has_present) task.present = place_on_map(task.grid);
 }

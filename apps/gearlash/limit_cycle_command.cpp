@@ -17,8 +17,7 @@
 #include "plot_option.hpp"
 #include "question/analyse.hpp"
 #include "question/change/derivatives.hpp"
-#include "question/change/orbit_derivatives.hpp"
-#include "question/final_servo.hpp"
+#include "question/change/margins.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 
@@ -95,11 +94,10 @@ std::string draw(const Result& result, const Plot& plot, LimitedWork& work) {
 std::vector<Axis> read_parameters(const LimitCycleOptions& options, const Drive& drive,
                                   Faults& faults) {
   constexpr char field[] = "--parameters";
-  std::vector<Axis> axes;
-  for (const std::string& text : options.parameters) {
-    axes.push_back(collect_axis(
-        [&](auto* out) { return read_axis_to_search(field, text, drive, out); }, faults));
-  }
+  std::vector<Axis> axes = collect_axes(
+      options.parameters,
+      [&](const auto& text, auto* out) { return read_axis_to_search(field, text, drive, out); },
+      faults);
   if (!axes.empty() && !options.margins) {
     faults.add({field, options.parameters.front(), "must come with --margins", ""});
   }
@@ -115,21 +113,14 @@ struct Changes {
 
 /// Adds margins and sensitivities.
 void add_changes(Result& result, const Drive& drive, const Changes& wanted, LimitedWork& work) {
-  const bool is_closed = gearlash::closed_form_drive(drive).has_value();
-  // At the very ends of the ranges, rounding may put the ratios outside them.
-  const bool is_sound = !is_closed || faults(final_servo(drive)->drivetrain).empty();
-  if (wanted.margins && is_sound) {
+  if (wanted.margins && has_margins(result.analysis)) {
     TerminalProgress progress(work, "Margins");
     result.report.margin =
         wanted.axes.empty() ? margins(drive, progress) : margins(drive, wanted.axes, progress);
   }
   if (!wanted.sensitivities) return;
-  if (!is_closed) {
-    TerminalProgress progress(work, "Sensitivities");
-    result.report.sensitivity = orbit_derivatives(drive, result.analysis, progress);
-  } else {
-    result.report.sensitivity = is_sound ? drive_sensitivity(drive) : Jacobian{};
-  }
+  TerminalProgress progress(work, "Sensitivities");
+  result.report.sensitivity = sensitivities(drive, result.analysis, progress);
 }
 
 /// `specification`: rad, or 0.
@@ -265,8 +256,7 @@ void add_limit_cycle_command(Command& app, Action& action) {
   command->add_flag("--sensitivities", options->sensitivities,
                     "Add sensitivities to every parameter, in per cent for one per cent; of\n"
                     "searched drives for a continuous controller without encoder");
-  command->footer(help_footer(limit_cycle_examples));
-  set_action(*command, action, options, run);
+  set_action(*command, action, options, help_footer(limit_cycle_examples), run);
 }
 
 }  // namespace gearlash::cli

@@ -58,10 +58,11 @@ void add_map_command(Command& app, Action& action) {
   add_grid_options(*command, options->grid,
                    "Draw map=FILE, contours of the quantity, or its value at each point\n"
                    "if drives are searched;");
-  command->footer(
+  set_action(
+      *command, action, options,
       "Without --backlash, amplitudes are in backlashes, because they are proportional to it.\n\n" +
-      help_footer(map_examples));
-  set_action(*command, action, options, run);
+          help_footer(map_examples),
+      run);
 }
 
 }  // namespace gearlash::cli

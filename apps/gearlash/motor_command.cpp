@@ -29,11 +29,11 @@ ExitStatus run(const ServoOptions& options, const Provenance&) {
     throw InvalidInput({{"motor", "", "the procedure starts from a data sheet with [motor]",
                          shown(options.file, std::string_view::npos)}});
   }
-  const Drive drive = closed_form_drive(*written, options);
+  servo_of_1960(*written, options);
   // With --set the texts of the file no longer apply.
   std::map<std::string, std::string> texts;
   if (options.settings.empty()) texts = written->texts;
-  write_file("-", motor_procedure(drive, written->angle, texts));
+  write_file("-", motor_procedure(written->drive, written->angle, texts));
   return ExitStatus::done;
 }
 
@@ -49,8 +49,7 @@ void add_motor_command(Command& app, Action& action) {
       ->type_name("")
       ->required();
   add_set_option(*command, *options);
-  command->footer(help_footer(motor_examples));
-  set_action(*command, action, options, run);
+  set_action(*command, action, options, help_footer(motor_examples), run);
 }
 
 }  // namespace gearlash::cli

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/overloaded.hpp"
-#include "closed_form/closed_answer.hpp"
-#include "closed_form/limit_cycle.hpp"
+#include "base/special_numbers.hpp"
+#include "gearlash/analyse.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/answer_report.hpp"
 
@@ -252,30 +252,31 @@ Procedure procedure_for(const TorqueControl&, const Known&) {
 // --- the limit cycle ---
 
 /// The thesis reads a chart here. This solves the equation behind the chart.
-void add_limit_cycle(Steps& steps, const NormalizedServo& servo) {
-  NormalizedServo charted = servo;
-  charted.backlash = chart_backlash;
-  const LimitCycleAnalysis analysis = analyse_limit_cycles(charted);
-  const auto cycle = std::find_if(analysis.cycles.begin(), analysis.cycles.end(),
-                                  [](const LimitCycle& candidate) { return candidate.stable; });
-  steps.add(
-      "Limit cycle for a backlash of 0.3 rad, which the thesis reads from a chart",
-      fmt::format("enter with ζ = {}, J_L/J_M = {}, F_L/F_Total = {}", number(charted.damping),
-                  number(charted.inertia_ratio), number(charted.friction_ratio)));
-  if (charted.restitution > 0.0) {
+void add_limit_cycle(Steps& steps, const Drive& drive) {
+  Drive charted = drive;
+  charted.gearbox.backlash = chart_backlash;
+  const Answer answer = analyse(charted, {.proofs = false});
+  const NormalFormNumbers servo = answer.normal_form.value();
+  const auto cycle =
+      std::find_if(answer.cycles.begin(), answer.cycles.end(),
+                   [](const Cycle& candidate) { return candidate.stability == Stability::stable; });
+  steps.add("Limit cycle for a backlash of 0.3 rad, which the thesis reads from a chart",
+            fmt::format("enter with ζ = {}, J_L/J_M = {}, F_L/F_Total = {}", number(servo.damping),
+                        number(servo.inertia_ratio), number(servo.friction_ratio)));
+  if (servo.restitution > 0.0) {
     steps.more(fmt::format("(the charts are for restitution 0; this gear has {})",
-                           number(charted.restitution)));
+                           number(servo.restitution)));
   }
-  if (cycle == analysis.cycles.end()) {
-    steps.more(fmt::format("no limit cycle: {}, growth at rest {}", name_of(analysis.verdict),
-                           number(analysis.growth_at_rest)));
+  if (cycle == answer.cycles.end()) {
+    steps.more(fmt::format("no limit cycle: {}, growth at rest {}", name_of(answer.verdict),
+                           number(answer.growth_at_rest.value_or(not_a_number))));
     return;
   }
   steps.more(fmt::format("computed, not read: ±{} rad", number(cycle->amplitude)));
-  const double amplitude = cycle->amplitude * servo.backlash / chart_backlash;
+  const double amplitude = cycle->amplitude * drive.gearbox.backlash / chart_backlash;
   steps.add("Limit cycle for this backlash",
-            fmt::format("{} × {}/0.3 = {} rad", number(cycle->amplitude), number(servo.backlash),
-                        number(amplitude)));
+            fmt::format("{} × {}/0.3 = {} rad", number(cycle->amplitude),
+                        number(drive.gearbox.backlash), number(amplitude)));
 }
 
 }  // namespace
@@ -285,11 +286,8 @@ std::string motor_procedure(const Drive& drive, const AngleUnit& angle,
   const Known known(drive);
   Procedure procedure =
       std::visit([&](const auto& motor) { return procedure_for(motor, known); }, drive.motor.kind);
-  add_limit_cycle(procedure.steps, known.servo);
-  const ClosedFormServo servo{known.servo, known.frequency, false};
-  const AnswerReport report{
-      .answer = answer_of(analyse_limit_cycles(known.servo), servo, known.drivetrain.stiffness),
-      .angle = angle};
+  add_limit_cycle(procedure.steps, drive);
+  const AnswerReport report{.answer = analyse(drive, {.proofs = false}), .angle = angle};
   return fmt::format(
       "Procedure for the {} (Appendix A of the thesis)\n\nData sheet\n{}\nSteps\n{}\n{}\n",
       procedure.title, given_table(drive, written), procedure.steps.text(), headline(report));

@@ -5,31 +5,43 @@
 #include <filesystem>
 #include <utility>
 
+#include "gearlash/parameter.hpp"
 #include "input/section_reader.hpp"
+#include "input/target_text.hpp"
 #include "input/text_file.hpp"
 #include "input/units.hpp"
 #include "machine_faults.hpp"
 #include "model/parameters.hpp"
+#include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/output_file.hpp"
 #include "question/analyse.hpp"
-#include "question/final_servo.hpp"
 
 namespace gearlash::cli {
 namespace {
 
 constexpr char servo_group[] = "Servo";
 
-/// The options that can describe a servo without a file.
-struct NumberOption {
-  const char* name;
-  std::optional<std::string> ServoOptions::*typed;
-};
-constexpr NumberOption number_options[] = {{"damping", &ServoOptions::damping},
-                                           {"inertia_ratio", &ServoOptions::inertia_ratio},
-                                           {"friction_ratio", &ServoOptions::friction_ratio},
-                                           {"backlash", &ServoOptions::backlash},
-                                           {"restitution", &ServoOptions::restitution}};
+/// The help and the type of an option for each of normal_form_numbers, which describe a servo
+/// without a file.
+constexpr std::pair<const char*, const char*> number_options[] = {
+    {"Set the damping ratio: 0, or 1e-15 to 1000", "NUMBER"},
+    {"Set the inertia ratio, load to motor: 0 to inf", "NUMBER"},
+    {"Set the friction ratio, load to total: 0 to 1", "NUMBER"},
+    {"Set the backlash at the load, face to face, in rad or with a unit:\n\"12 arcmin\"", "ANGLE"},
+    {"Set the restitution: 0 (plastic, the default) to 1 (elastic)", "NUMBER"}};
+
+/// Whether the number is one of the ratios that a drive with [motor] has not by itself.
+bool is_ratio(const NormalFormNumber& number) {
+  return number.path.starts_with("servo.") && number.path != "servo.backlash";
+}
+
+bool has_ratio(const ServoOptions& options) {
+  for (std::size_t i = 0; i < options.numbers.size(); ++i) {
+    if (options.numbers[i] && is_ratio(normal_form_numbers[i])) return true;
+  }
+  return false;
+}
 
 std::string permitted_without_file(std::string_view field) {
   if (field == "backlash") return "must be an angle such as 0.1 (rad) or \"12 arcmin\"";
@@ -53,26 +65,21 @@ Source source_of(const ServoOptions& options) {
   return {"[servo]\n", "the command line", {}};
 }
 
-std::string path_of(const NumberOption& option, bool is_normal_form) {
-  if (option.typed == &ServoOptions::restitution) return "contact.restitution";
-  const bool is_of_plant = option.typed == &ServoOptions::backlash && !is_normal_form;
-  return (is_of_plant ? "gearbox." : "servo.") + std::string(option.name);
-}
-
 /// As --set would give it. A bare backlash is in radians.
-void add_setting(const NumberOption& option, const ServoOptions& options, bool is_normal_form,
+void add_setting(std::size_t number, const ServoOptions& options, bool is_normal_form,
                  std::vector<Setting>& settings) {
-  const std::optional<std::string>& typed = options.*option.typed;
+  const std::optional<std::string>& typed = options.numbers[number];
   if (!typed) return;
-  const bool is_bare = option.typed == &ServoOptions::backlash && bare_number(*typed);
-  settings.push_back({path_of(option, is_normal_form), *typed + (is_bare ? " rad" : "")});
+  const std::string path(path_of(normal_form_numbers[number], is_normal_form));
+  const bool is_bare = path.ends_with("backlash") && bare_number(*typed);
+  settings.push_back({path, *typed + (is_bare ? " rad" : "")});
 }
 
 /// Settings from --set and, without a file, from the options of the normal form.
 std::vector<Setting> settings_of(const ServoOptions& options, Faults& faults) {
   std::vector<Setting> settings;
-  for (const NumberOption& option : number_options) {
-    if (options.file.empty()) add_setting(option, options, true, settings);
+  for (std::size_t i = 0; i < options.numbers.size() && options.file.empty(); ++i) {
+    add_setting(i, options, true, settings);
   }
   for (const std::string& text : options.settings) {
     faults.collect([&] { return settings.push_back(read_setting(text)), 0; }, 0);
@@ -93,30 +100,12 @@ void add_set_option(Command& command, ServoOptions& options) {
 }
 
 void add_drive_options(Command& command, ServoOptions& options, const std::string& sensor_help) {
-  command.add_option("--damping", options.damping, "Set the damping ratio: 0, or 1e-15 to 1000")
-      ->type_name("NUMBER")
-      ->group(servo_group);
-  command
-      .add_option("--inertia-ratio", options.inertia_ratio,
-                  "Set the inertia ratio, load to motor: 0 to inf")
-      ->type_name("NUMBER")
-      ->group(servo_group);
-  command
-      .add_option("--friction-ratio", options.friction_ratio,
-                  "Set the friction ratio, load to total: 0 to 1")
-      ->type_name("NUMBER")
-      ->group(servo_group);
-  command
-      .add_option("--backlash", options.backlash,
-                  "Set the backlash at the load, face to face, in rad or with a unit:\n"
-                  "\"12 arcmin\"")
-      ->type_name("ANGLE")
-      ->group(servo_group);
-  command
-      .add_option("--restitution", options.restitution,
-                  "Set the restitution: 0 (plastic, the default) to 1 (elastic)")
-      ->type_name("NUMBER")
-      ->group(servo_group);
+  for (std::size_t i = 0; i < options.numbers.size(); ++i) {
+    const auto& [help, type] = number_options[i];
+    command.add_option(option_name(normal_form_numbers[i].name), options.numbers[i], help)
+        ->type_name(type)
+        ->group(servo_group);
+  }
   command.add_option("--sensor", options.sensor, sensor_help)
       ->type_name("SHAFT")
       ->group(servo_group);
@@ -242,17 +231,18 @@ std::vector<Fault> named_as_typed(std::vector<Fault> faults, const ServoOptions&
       fault.path = "--sensor";
       fault.where.clear();
     }
-    for (const NumberOption& option : number_options) {
-      const std::optional<std::string>& typed = options.*option.typed;
-      const bool is_it = fault.path == path_of(option, true) ||
-                         fault.path == path_of(option, false) || fault.path == option.name;
+    for (std::size_t i = 0; i < options.numbers.size(); ++i) {
+      const std::optional<std::string>& typed = options.numbers[i];
+      const NormalFormNumber& number = normal_form_numbers[i];
+      const bool is_it = fault.path == number.path || fault.path == path_of(number, false) ||
+                         fault.path == number.name;
       if (!is_it || (has_file && !typed)) continue;
-      fault.path = option_name(option.name);
+      fault.path = option_name(number.name);
       fault.where.clear();
       if (typed) {
         fault.value = shown(*typed);
       } else {
-        fault.permitted = permitted_without_file(option.name) + "; or give DRIVE.toml";
+        fault.permitted = permitted_without_file(number.name) + "; or give DRIVE.toml";
       }
       break;
     }
@@ -266,20 +256,19 @@ WrittenDrive changed_normal_form(const WrittenDrive& written, const ServoOptions
   WrittenDrive changed{
       .drive = form.value_or(written.drive), .angle = written.angle, .tolerances = {}};
   Faults faults;
-  const auto change = [&](const char* name, const std::optional<std::string>& typed,
-                          double NormalForm::*number) {
-    if (!typed) return;
-    if (!form) {
-      faults.add({option_name(name), shown(*typed),
+  for (std::size_t i = 0; i < options.numbers.size(); ++i) {
+    const NormalFormNumber& number = normal_form_numbers[i];
+    const std::optional<std::string>& typed = options.numbers[i];
+    if (!typed || !is_ratio(number)) continue;
+    const std::string field = option_name(number.name);
+    if (form) {
+      faults.collect([&] { return set(changed.drive, number.path, read_number(field, *typed)), 0; },
+                     0);
+    } else {
+      faults.add({field, shown(*typed),
                   "must be left out: the drive has no normal form with this number", ""});
-      return;
     }
-    double& value = (*changed.drive.servo).*number;
-    value = faults.collect([&] { return read_number(option_name(name), *typed); }, value);
-  };
-  change("damping", options.damping, &NormalForm::damping);
-  change("inertia_ratio", options.inertia_ratio, &NormalForm::inertia_ratio);
-  change("friction_ratio", options.friction_ratio, &NormalForm::friction_ratio);
+  }
   faults.require_none();
   require_none(gearlash::faults(changed.drive));
   return changed;
@@ -293,21 +282,44 @@ WrittenDrive read_drive_as_typed(const ServoOptions& options, std::vector<Settin
   bool is_normal_form = false;
   const auto settings_of_form = [&](bool is_form) {
     is_normal_form = is_form;
-    for (const NumberOption& option : number_options) {
-      const bool is_of_both =
-          option.typed == &ServoOptions::backlash || option.typed == &ServoOptions::restitution;
-      if (is_form || is_of_both) add_setting(option, options, is_form, settings);
+    for (std::size_t i = 0; i < options.numbers.size(); ++i) {
+      if (is_form || !is_ratio(normal_form_numbers[i])) add_setting(i, options, is_form, settings);
     }
     if (options.sensor) settings.push_back({"sensor.position", *options.sensor});
     return settings;
   };
   const WrittenDrive written =
       parse_drive_by_form(source.text, source.name, source.folder, settings_of_form);
-  const bool has_more = options.damping || options.inertia_ratio || options.friction_ratio;
-  return is_normal_form || !has_more ? written : changed_normal_form(written, options);
+  return is_normal_form || !has_ratio(options) ? written : changed_normal_form(written, options);
 }
 
 }  // namespace
+
+Target collect_target(const std::string& text, const Drive* drive, Faults& faults) {
+  const bool has_time = drive == nullptr || !is_normalized(*drive);
+  return faults.collect(
+      [&] {
+        return read_target("--target", text, has_time ? TimeScale::known : TimeScale::unknown);
+      },
+      Target{});
+}
+
+std::uint64_t collect_whole(const char* field, const std::string& text, std::uint64_t least,
+                            std::uint64_t most, Faults& faults) {
+  return faults.collect([&] { return read_whole(field, text, least, most); }, least);
+}
+
+std::vector<Axis> collect_axes(
+    const std::vector<std::string>& texts,
+    const std::function<Axis(const std::string& text, std::string* left_out)>& read,
+    Faults& faults) {
+  std::vector<Axis> axes;
+  for (const std::string& text : texts) {
+    axes.push_back(
+        collect_axis([&](std::string* left_out) { return read(text, left_out); }, faults));
+  }
+  return axes;
+}
 
 double read_time(const char* field, const std::string& text, Faults& faults) {
   const double time = faults.collect([&] { return read_si(field, text, dimensions::time); }, 1.0);
@@ -355,10 +367,10 @@ std::optional<WrittenDrive> resolve_drive(const ServoOptions& options,
   return written;
 }
 
-Drive closed_form_drive(const WrittenDrive& written, const ServoOptions& options) {
-  if (auto drive = gearlash::closed_form_drive(written.drive)) return *std::move(drive);
+ProportionalServo servo_of_1960(const WrittenDrive& written, const ServoOptions& options) {
+  if (const auto servo = settled_servo(written.drive)) return *servo;
   throw InvalidInput(
-      {{"drive", "without a closed form", permitted_with_closed_form, shown(options.file)}});
+      {{"drive", "without a closed form", permitted_with_servo, shown(options.file)}});
 }
 
 }  // namespace gearlash::cli

@@ -1,6 +1,8 @@
 // The servo that the command line describes: a file, options, or a file changed by options.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -8,22 +10,27 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "gearlash/design.hpp"
 #include "gearlash/grid.hpp"
 #include "input/drive_file.hpp"
 #include "input/units.hpp"
+#include "model/proportional_servo.hpp"
+#include "question/axis.hpp"
 
 namespace gearlash::cli {
 
 /// As typed; empty where not given.
 struct ServoOptions {
   std::string file;  ///< "-": standard input
-  std::optional<std::string> damping;
-  std::optional<std::string> inertia_ratio;
-  std::optional<std::string> friction_ratio;
-  std::optional<std::string> backlash;
-  std::optional<std::string> restitution;
+  /// Of the normal form, as normal_form_numbers.
+  std::array<std::optional<std::string>, normal_form_numbers.size()> numbers;
   std::optional<std::string> sensor;
   std::vector<std::string> settings;  ///< of --set
+
+  std::optional<std::string>& backlash() {
+    static_assert(normal_form_numbers[3].path == "servo.backlash");
+    return numbers[3];
+  }
 };
 
 /// "--inertia-ratio" for inertia_ratio.
@@ -83,6 +90,20 @@ Axis collect_axis(const std::function<Axis(std::string* left_out)>& read, Faults
 /// A number in SI, or one with its unit ("50 ms"). Throws InvalidInput; "inf" is none.
 double read_si(std::string_view field, std::string_view text, const Dimension& dimension);
 
+/// The target of --target; an empty one where there is a fault. `drive`: nullptr if it is not
+/// known; a normal form without a natural frequency has no times.
+Target collect_target(const std::string& text, const Drive* drive, Faults& faults);
+
+/// A whole number of an option; a fault otherwise, and `least`.
+std::uint64_t collect_whole(const char* field, const std::string& text, std::uint64_t least,
+                            std::uint64_t most, Faults& faults);
+
+/// The axes that `read` gives for the texts: see collect_axis().
+std::vector<Axis> collect_axes(
+    const std::vector<std::string>& texts,
+    const std::function<Axis(const std::string& text, std::string* left_out)>& read,
+    Faults& faults);
+
 /// A positive time of an option, in s or with its unit; a fault otherwise.
 double read_time(const char* field, const std::string& text, Faults& faults);
 
@@ -99,8 +120,7 @@ std::optional<WrittenDrive> resolve_drive(const ServoOptions& options,
 /// The tables that a drive of this file ("-": standard input) names, in the file or by --set.
 std::vector<FileUse> named_tables(Drive drive, const std::string& file);
 
-/// The drive without its signals, on which hunting does not depend. Throws InvalidInput, located at
-/// the file, where it has no closed form.
-Drive closed_form_drive(const WrittenDrive& written, const ServoOptions& options);
+/// The servo of 1960 that the drive is. Throws InvalidInput, located at the file, for any other.
+ProportionalServo servo_of_1960(const WrittenDrive& written, const ServoOptions& options);
 
 }  // namespace gearlash::cli

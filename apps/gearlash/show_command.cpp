@@ -39,8 +39,7 @@ void add_show_command(Command& app, Action& action) {
   add_servo_or_drive_options(*command, options->servo);
   command->add_option("--format", options->format, "Choose the format: toml (default) or json")
       ->type_name("FORMAT");
-  command->footer(help_footer(show_examples));
-  set_action(*command, action, options, run);
+  set_action(*command, action, options, help_footer(show_examples), run);
 }
 
 }  // namespace gearlash::cli

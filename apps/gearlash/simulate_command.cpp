@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 
 #include "base/range_check.hpp"
 #include "command.hpp"
 #include "gearlash/motion.hpp"
-#include "general/assemble/time_scale.hpp"
 #include "general/attractors/search_setting.hpp"
 #include "input/units.hpp"
 #include "limit_options.hpp"
@@ -19,6 +17,7 @@
 #include "picture/motion_picture.hpp"
 #include "plot_option.hpp"
 #include "question/analyse.hpp"
+#include "question/motion.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 
@@ -96,16 +95,6 @@ void set_reference(const SimulateOptions& options, WrittenDrive& written, Faults
   } else if (!written.drive.reference) {
     written.drive.reference = default_reference(reduce(written.drive));
   }
-}
-
-double period_of_loop(const Drive& drive) {
-  Drive at_rest = drive;
-  at_rest.reference.reset();
-  at_rest.load_torque.reset();
-  if (const auto servo = closed_form_servo(at_rest)) {
-    return 2.0 * std::numbers::pi / servo->natural_frequency;
-  }
-  return drive::time_scales(reduce(drive)).swing;
 }
 
 /// The default end is ten periods of the loop plus twice the settling time of the signals. `drive`
@@ -351,8 +340,7 @@ void add_simulate_command(Command& app, Action& action) {
                    "Write the table to this file; default standard output")
       ->type_name("FILE");
   add_limit_options(*command, options->limits);
-  command->footer(help_footer(simulate_examples));
-  set_action(*command, action, options, run);
+  set_action(*command, action, options, help_footer(simulate_examples), run);
 }
 
 }  // namespace gearlash::cli

@@ -115,8 +115,7 @@ void add_sweep_command(Command& app, Action& action) {
       ->required();
   command->add_flag("--resume", options->resume, "Continue a sweep that was stopped or killed");
   add_limit_options(*command, options->limits);
-  command->footer(sweep_explanation + help_footer(sweep_examples));
-  set_action(*command, action, options, run);
+  set_action(*command, action, options, sweep_explanation + help_footer(sweep_examples), run);
 }
 
 }  // namespace gearlash::cli

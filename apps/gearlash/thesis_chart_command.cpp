@@ -8,16 +8,15 @@
 #include <optional>
 
 #include "base/progress_part.hpp"
-#include "closed_form/limit_cycle.hpp"
 #include "input/section_reader.hpp"
 #include "limit_options.hpp"
 #include "machine_faults.hpp"
-#include "model/reduced_drive.hpp"
 #include "output/columns.hpp"
 #include "output/output_file.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 #include "thesis/chart_reading.hpp"
+#include "thesis/exact_curve.hpp"
 #include "thesis/extensions.hpp"
 #include "thesis/figures.hpp"
 #include "thesis_command.hpp"
@@ -126,19 +125,19 @@ void add_thesis_figure(Command& thesis, Action& action) {
       ->add_option("--output", options->output,
                    "Write this picture, .svg, .png or .pdf; default figure-N.svg")
       ->type_name("FILE");
-  command->footer(help_footer(figure_examples));
-  set_action(*command, action, options, [](auto& typed, const Provenance&) {
-    Faults faults;
-    const int number = faults.collect([&] { return read_figure_number(typed.number); }, 2);
-    const std::string file =
-        typed.output.empty() ? fmt::format("figure-{}.svg", number) : typed.output;
-    const PictureFormat format =
-        faults.collect([&] { return picture_format("--output", file); }, PictureFormat::svg);
-    faults.require_writable({{"--output", file}});
-    faults.require_none();
-    write_file(file, draw_line_chart(figure_chart(number), format));
-    return ExitStatus::done;
-  });
+  set_action(
+      *command, action, options, help_footer(figure_examples), [](auto& typed, const Provenance&) {
+        Faults faults;
+        const int number = faults.collect([&] { return read_figure_number(typed.number); }, 2);
+        const std::string file =
+            typed.output.empty() ? fmt::format("figure-{}.svg", number) : typed.output;
+        const PictureFormat format =
+            faults.collect([&] { return picture_format("--output", file); }, PictureFormat::svg);
+        faults.require_writable({{"--output", file}});
+        faults.require_none();
+        write_file(file, draw_line_chart(figure_chart(number), format));
+        return ExitStatus::done;
+      });
 }
 
 void add_thesis_all(Command& thesis, Action& action) {
@@ -153,37 +152,38 @@ void add_thesis_all(Command& thesis, Action& action) {
                    "Write into this folder, and make it if missing; default\nthesis-figures")
       ->type_name("DIR");
   add_limit_options(*command, options->limits);
-  command->footer(help_footer(figure_examples));
-  set_action(*command, action, options, [](const Options& typed, const Provenance&) {
-    Faults faults;
-    const Limits limits = read_limits(typed.limits, faults);
-    faults.require_none();
-    const std::filesystem::path folder = typed.folder;
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) {
-      throw InvalidInput(
-          {{"--output", shown(typed.folder),
-            "must be a folder that exists or can be made (" + error.message() + ")", ""}});
-    }
-    const std::vector<int> numbers = figure_numbers();
-    const auto file = [&](std::size_t i) {
-      return (folder / fmt::format("figure-{}.svg", numbers[i])).string();
-    };
-    faults.require_writable({{"--output", file(0)}});
-    faults.require_none();
-    LimitedWork work(limits);
-    TerminalProgress progress(work, "Figures");
-    std::size_t drawn = 0;
-    while (drawn < numbers.size()) {
-      ProgressPart part(progress, drawn, numbers.size());
-      const LineChart chart = figure_chart(numbers[drawn], part);
-      if (!work.go_on()) break;
-      write_file(file(drawn++), draw_line_chart(chart, PictureFormat::svg));
-    }
-    return end_work(work, ExitStatus::done,
-                    fmt::format("{} of {} figures are drawn", drawn, numbers.size()));
-  });
+  set_action(
+      *command, action, options, help_footer(figure_examples),
+      [](const Options& typed, const Provenance&) {
+        Faults faults;
+        const Limits limits = read_limits(typed.limits, faults);
+        faults.require_none();
+        const std::filesystem::path folder = typed.folder;
+        std::error_code error;
+        std::filesystem::create_directories(folder, error);
+        if (error) {
+          throw InvalidInput(
+              {{"--output", shown(typed.folder),
+                "must be a folder that exists or can be made (" + error.message() + ")", ""}});
+        }
+        const std::vector<int> numbers = figure_numbers();
+        const auto file = [&](std::size_t i) {
+          return (folder / fmt::format("figure-{}.svg", numbers[i])).string();
+        };
+        faults.require_writable({{"--output", file(0)}});
+        faults.require_none();
+        LimitedWork work(limits);
+        TerminalProgress progress(work, "Figures");
+        std::size_t drawn = 0;
+        while (drawn < numbers.size()) {
+          ProgressPart part(progress, drawn, numbers.size());
+          const LineChart chart = figure_chart(numbers[drawn], part);
+          if (!work.go_on()) break;
+          write_file(file(drawn++), draw_line_chart(chart, PictureFormat::svg));
+        }
+        return end_work(work, ExitStatus::done,
+                        fmt::format("{} of {} figures are drawn", drawn, numbers.size()));
+      });
 }
 
 void add_thesis_chart_reading(Command& thesis, Action& action) {
@@ -191,17 +191,17 @@ void add_thesis_chart_reading(Command& thesis, Action& action) {
   Command* command = thesis.add_subcommand(
       "chart-reading", "Read the amplitude off the charts, beside the exact one");
   add_servo_options(*command, *options);
-  command->footer(help_footer(chart_reading_examples));
-  set_action(*command, action, options, [](const ServoOptions& given, const Provenance&) {
-    ServoOptions typed = given;
-    if (typed.file.empty() && !typed.backlash) typed.backlash = "0.3";
-    Faults faults;
-    const std::optional<WrittenDrive> written = resolve_drive(typed, {}, faults);
-    faults.require_none();
-    const NormalizedServo servo = closed_form_servo(closed_form_drive(*written, typed))->servo;
-    write_file("-", chart_reading_text(servo, thesis::read_chart(servo)));
-    return ExitStatus::done;
-  });
+  set_action(*command, action, options, help_footer(chart_reading_examples),
+             [](const ServoOptions& given, const Provenance&) {
+               ServoOptions typed = given;
+               if (typed.file.empty() && !typed.backlash()) typed.backlash() = "0.3";
+               Faults faults;
+               const std::optional<WrittenDrive> written = resolve_drive(typed, {}, faults);
+               faults.require_none();
+               const NormalizedServo servo = servo_of_1960(*written, typed).servo;
+               write_file("-", chart_reading_text(servo, thesis::read_chart(servo)));
+               return ExitStatus::done;
+             });
 }
 
 void add_thesis_extension(Command& thesis, Action& action) {
@@ -221,34 +221,35 @@ void add_thesis_extension(Command& thesis, Action& action) {
                    "Write this picture, .svg, .png or .pdf; default extension-N.svg")
       ->type_name("FILE");
   add_limit_options(*command, options->limits);
-  command->footer(help_footer(extension_examples));
-  set_action(*command, action, options, [](auto& typed, const Provenance&) {
-    Faults faults;
-    if (typed.number != "2" && typed.number != "3" && typed.number != "4") {
-      faults.add({"N", shown(typed.number),
-                  "must be 2, 3 or 4 (recommendation 1 is gearlash thesis run)", ""});
-    }
-    const std::string file =
-        typed.output.empty() ? "extension-" + typed.number + ".svg" : typed.output;
-    const PictureFormat format =
-        faults.collect([&] { return picture_format("--output", file); }, PictureFormat::svg);
-    faults.require_writable({{"--output", file}});
-    const Limits limits = read_limits(typed.limits, faults);
-    faults.require_none();
-    LimitedWork work(limits);
-    std::optional<TerminalProgress> progress;
-    progress.emplace(work, "Extension " + typed.number);
-    const thesis::Extension extension = thesis::extension(std::stoi(typed.number), *progress);
-    progress.reset();  // wiped before anything is printed
-    Extras extras;
-    extras.print(wrapped(fmt::format("{}. {}", extension.number, extension.wish)) + "\n" +
-                 wrapped(extension.lesson));
-    const ExitStatus status = end_work(work, ExitStatus::done, "the chart is not drawn");
-    if (!work.is_stopped()) {
-      extras.make([&] { write_file(file, draw_line_chart(extension.chart, format)); });
-    }
-    return extras.status(status);
-  });
+  set_action(*command, action, options, help_footer(extension_examples),
+             [](auto& typed, const Provenance&) {
+               Faults faults;
+               if (typed.number != "2" && typed.number != "3" && typed.number != "4") {
+                 faults.add({"N", shown(typed.number),
+                             "must be 2, 3 or 4 (recommendation 1 is gearlash thesis run)", ""});
+               }
+               const std::string file =
+                   typed.output.empty() ? "extension-" + typed.number + ".svg" : typed.output;
+               const PictureFormat format = faults.collect(
+                   [&] { return picture_format("--output", file); }, PictureFormat::svg);
+               faults.require_writable({{"--output", file}});
+               const Limits limits = read_limits(typed.limits, faults);
+               faults.require_none();
+               LimitedWork work(limits);
+               std::optional<TerminalProgress> progress;
+               progress.emplace(work, "Extension " + typed.number);
+               const thesis::Extension extension =
+                   thesis::extension(std::stoi(typed.number), *progress);
+               progress.reset();  // wiped before anything is printed
+               Extras extras;
+               extras.print(wrapped(fmt::format("{}. {}", extension.number, extension.wish)) +
+                            "\n" + wrapped(extension.lesson));
+               const ExitStatus status = end_work(work, ExitStatus::done, "the chart is not drawn");
+               if (!work.is_stopped()) {
+                 extras.make([&] { write_file(file, draw_line_chart(extension.chart, format)); });
+               }
+               return extras.status(status);
+             });
 }
 
 }  // namespace gearlash::cli

@@ -188,19 +188,19 @@ void add_thesis_table_2(Command& thesis, Action& action) {
       ->add_flag("--properties", options->properties,
                  "Show how many of its numbers each property of the\nprogram accounts for")
       ->excludes(arithmetic);
-  command->footer(help_footer(table_2_examples));
-  set_action(*command, action, options, [](auto& typed, const Provenance&) {
-    Faults faults;
-    faults.require_choice("--arithmetic", typed.arithmetic, {"double", "1604"});
-    faults.require_none();
-    if (typed.properties) {
-      write_file("-", properties_text());
-      return ExitStatus::done;
-    }
-    write_file("-", "Table II: the program of 1960 run again, beside its printout\n\n" +
-                        beside_table_2(run_listed_program(typed.arithmetic)));
-    return ExitStatus::done;
-  });
+  set_action(*command, action, options, help_footer(table_2_examples),
+             [](auto& typed, const Provenance&) {
+               Faults faults;
+               faults.require_choice("--arithmetic", typed.arithmetic, {"double", "1604"});
+               faults.require_none();
+               if (typed.properties) {
+                 write_file("-", properties_text());
+                 return ExitStatus::done;
+               }
+               write_file("-", "Table II: the program of 1960 run again, beside its printout\n\n" +
+                                   beside_table_2(run_listed_program(typed.arithmetic)));
+               return ExitStatus::done;
+             });
 }
 
 void add_thesis_machine(Command& thesis, Action& action) {
@@ -217,17 +217,17 @@ void add_thesis_machine(Command& thesis, Action& action) {
   rules->excludes(trace);
   listing->excludes(trace);
   listing->excludes(rules);
-  command->footer(help_footer(machine_examples));
-  set_action(*command, action, options, [](auto& typed, const Provenance&) {
-    if (typed.trace) {
-      write_file("-", trace_text(read_whole("--trace", *typed.trace, 1, 1'000'000)));
-    } else if (typed.rules) {
-      write_file("-", rules_text());
-    } else {
-      write_file("-", typed.listing ? listing_text() : machine_text());
-    }
-    return ExitStatus::done;
-  });
+  set_action(*command, action, options, help_footer(machine_examples),
+             [](auto& typed, const Provenance&) {
+               if (typed.trace) {
+                 write_file("-", trace_text(read_whole("--trace", *typed.trace, 1, 1'000'000)));
+               } else if (typed.rules) {
+                 write_file("-", rules_text());
+               } else {
+                 write_file("-", typed.listing ? listing_text() : machine_text());
+               }
+               return ExitStatus::done;
+             });
 }
 
 }  // namespace gearlash::cli

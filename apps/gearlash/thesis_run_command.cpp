@@ -6,15 +6,14 @@
 #include <cmath>
 #include <memory>
 
-#include "closed_form/limit_cycle.hpp"
 #include "limit_options.hpp"
 #include "machine_faults.hpp"
-#include "model/reduced_drive.hpp"
 #include "output/output_file.hpp"
 #include "plot_option.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 #include "thesis/chart_errors.hpp"
+#include "thesis/exact_curve.hpp"
 #include "thesis/mendings.hpp"
 #include "thesis/settled_cycle.hpp"
 #include "thesis_command.hpp"
@@ -206,13 +205,13 @@ ExitStatus run_program(const RunOptions& options, const Provenance&) {
     return ExitStatus::done;
   }
   ServoOptions typed = options.servo;
-  if (typed.file.empty() && !typed.backlash) typed.backlash = "0.3";  // of the charts
+  if (typed.file.empty() && !typed.backlash()) typed.backlash() = "0.3";  // of the charts
   Faults faults;
   const std::optional<WrittenDrive> written = resolve_drive(typed, {}, faults);
   const Limits limits = read_limits(options.limits, faults);
   faults.require_none();
   LimitedWork work(limits);
-  const NormalizedServo servo = closed_form_servo(closed_form_drive(*written, typed))->servo;
+  const NormalizedServo servo = servo_of_1960(*written, typed).servo;
   const auto parameters = thesis::program_parameters(servo);
   const thesis::SettledCycle cycle = settled(parameters, options.machine, work);
   write_file("-", run_text(servo, cycle));
@@ -244,8 +243,7 @@ void add_thesis_run(Command& thesis, Action& action) {
   causes->excludes(all);
   causes->excludes(machine);
   add_limit_options(*command, options->limits);
-  command->footer(help_footer(run_examples));
-  set_action(*command, action, options, run_program);
+  set_action(*command, action, options, help_footer(run_examples), run_program);
 }
 
 }  // namespace gearlash::cli

@@ -8,10 +8,9 @@
 #include <optional>
 
 #include "command.hpp"
-#include "input/target_text.hpp"
 #include "limit_options.hpp"
 #include "machine_faults.hpp"
-#include "model/reduced_drive.hpp"
+#include "model/proportional_servo.hpp"
 #include "output/output_file.hpp"
 #include "output/tolerance_report.hpp"
 #include "picture/tolerance_pictures.hpp"
@@ -81,14 +80,11 @@ bool are_searched(const WrittenDrive& written) {
 }
 
 void read_sampling(const ToleranceOptions& options, ToleranceRequest& task, Faults& faults) {
-  const auto whole = [&](const char* field, const std::string& text, std::uint64_t least,
-                         std::uint64_t most) {
-    return faults.collect([&] { return read_whole(field, text, least, most); }, least);
-  };
   if (!options.samples.empty()) {
-    task.sampling = sampling_of(whole("--samples", options.samples, 32, SamplePlan::most_samples));
+    task.sampling = sampling_of(
+        collect_whole("--samples", options.samples, 32, SamplePlan::most_samples, faults));
   }
-  task.sampling.seed = whole("--seed", options.seed, 0, std::uint64_t{1} << 53U);
+  task.sampling.seed = collect_whole("--seed", options.seed, 0, std::uint64_t{1} << 53U, faults);
   if (!options.error.empty()) {
     task.error = read_share("--error", options.error, faults);
     if (task.error < 1e-6 || task.error > 0.5) {
@@ -120,11 +116,10 @@ void read_amplitude(const ToleranceOptions& options, bool is_searched, Tolerance
   task.worst_search.amplitude = task.questions.amplitude;
 }
 
-void read_questions(const ToleranceOptions& options, TimeScale scale, ToleranceRequest& task,
+void read_questions(const ToleranceOptions& options, const Drive* drive, ToleranceRequest& task,
                     Faults& faults) {
   if (!options.target.empty()) {
-    task.questions.target =
-        faults.collect([&] { return read_target("--target", options.target, scale); }, Target{});
+    task.questions.target = collect_target(options.target, drive, faults);
   }
   if (options.yield.empty()) return;
   task.yield = read_share("--yield", options.yield, faults);
@@ -146,17 +141,16 @@ ToleranceRequest read_task(const ToleranceOptions& options) {
   read_pictures(options, task, faults);
   const std::optional<WrittenDrive> written =
       resolve_drive(options.servo, files_of(task.plots), faults);
-  const bool has_time = !written || !is_normalized(written->drive);
   const bool is_searched = written && are_searched(*written);
   read_sampling(options, task, faults);
   read_amplitude(options, is_searched, task, faults);
-  read_questions(options, has_time ? TimeScale::known : TimeScale::unknown, task, faults);
+  read_questions(options, written ? &written->drive : nullptr, task, faults);
   if (is_searched && !options.yield.empty()) {
-    faults.add({"--yield", options.yield, permitted_with_closed_form, ""});
+    faults.add({"--yield", options.yield, permitted_with_servo, ""});
   }
   task.limits = read_limits(options.limits, faults);
   faults.require_none();
-  task.drive = {is_searched ? written->drive : closed_form_drive(*written, options.servo),
+  task.drive = {is_searched ? written->drive : without_ended_signals(written->drive),
                 written->tolerances};
   task.angle = written->angle;
   if (task.drive.varied.empty()) {
@@ -281,8 +275,8 @@ void add_tolerance_command(Command& app, Action& action) {
   command->add_option("--format", options->format, "Choose the format: text (default) or json")
       ->type_name("FORMAT");
   add_limit_options(*command, options->limits);
-  command->footer(tolerance_explanation + help_footer(tolerance_examples));
-  set_action(*command, action, options, run);
+  set_action(*command, action, options, tolerance_explanation + help_footer(tolerance_examples),
+             run);
 }
 
 }  // namespace gearlash::cli

@@ -9,7 +9,6 @@
 #include "gearlash/parameter.hpp"
 #include "gearlash/tune.hpp"
 #include "input/axis_text.hpp"
-#include "input/target_text.hpp"
 #include "limit_options.hpp"
 #include "machine_faults.hpp"
 #include "model/reduced_drive.hpp"
@@ -80,12 +79,8 @@ void read_numbers(const TuneOptions& options, TuneRequest& task, Faults& faults)
       [&] { return read_si("--phase-margin", options.phase_margin, dimensions::angle); },
       task.task.least_phase_margin);
   constexpr std::size_t most_units = 100'000;
-  const auto whole = [&](const char* field, const std::string& text, std::uint64_t least,
-                         std::uint64_t most) {
-    return faults.collect([&] { return read_whole(field, text, least, most); }, least);
-  };
-  task.effort.units = whole("--units", options.units, 1, most_units);
-  task.effort.seed = whole("--seed", options.seed, 0, std::uint64_t{1} << 53U);
+  task.effort.units = collect_whole("--units", options.units, 1, most_units, faults);
+  task.effort.seed = collect_whole("--seed", options.seed, 0, std::uint64_t{1} << 53U, faults);
 }
 
 TuneRequest read_task(const TuneOptions& options) {
@@ -100,11 +95,12 @@ TuneRequest read_task(const TuneOptions& options) {
   const Drive& drive = written->drive;
   task.angle = written->angle;
   task.task.series = {drive, written->tolerances};
-  for (const std::string& text :
-       options.parameters.empty() ? usual_gains(drive) : options.parameters) {
-    task.task.tuned.push_back(collect_axis(
-        [&](auto* out) { return read_axis_to_tune("--parameters", text, drive, out); }, faults));
-  }
+  task.task.tuned = collect_axes(
+      options.parameters.empty() ? usual_gains(drive) : options.parameters,
+      [&](const auto& text, auto* out) {
+        return read_axis_to_tune("--parameters", text, drive, out);
+      },
+      faults);
   if (task.task.tuned.empty()) {
     faults.add({"--parameters", "", "must name what to tune: the drive has no gain above 0", ""});
   }
@@ -113,9 +109,7 @@ TuneRequest read_task(const TuneOptions& options) {
     task.task.target = usual_target(drive);
     task.target_text = text_of_usual(task.task.target, task.angle);
   } else {
-    const TimeScale scale = is_normalized(drive) ? TimeScale::unknown : TimeScale::known;
-    task.task.target =
-        faults.collect([&] { return read_target("--target", options.target, scale); }, Target{});
+    task.task.target = collect_target(options.target, &drive, faults);
   }
   faults.require_none();
   std::erase_if(task.task.series.varied, [&](const ParameterTolerance& varied) {
@@ -200,8 +194,7 @@ void add_tune_command(Command& app, Action& action) {
   command->add_option("--format", options->format, "Choose the format: text (default) or json")
       ->type_name("FORMAT");
   add_limit_options(*command, options->limits);
-  command->footer(tune_explanation + help_footer(tune_examples));
-  set_action(*command, action, options, run);
+  set_action(*command, action, options, tune_explanation + help_footer(tune_examples), run);
 }
 
 }  // namespace gearlash::cli

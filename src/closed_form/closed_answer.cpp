@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "base/interval.hpp"
+#include "base/number.hpp"
 #include "base/special_numbers.hpp"
+#include "closed_form/drive_box.hpp"
 
 namespace gearlash {
 namespace {
@@ -32,10 +34,45 @@ Cycle cycle_of(const LimitCycle& found, Certainty certainty, double time_unit,
   return cycle;
 }
 
+/// Factors from the normal form to SI, with the error of the data.
+struct Scales {
+  Interval backlash;
+  Interval time_unit;
+};
+
+Scales scales_of(const Drive& drive, const ProportionalServo& servo, const DriveBox& box) {
+  if (!servo.is_as_given) return {Interval(box.backlash), Interval(box.time_unit)};
+  // They may have units; 1 is what they are without a backlash and a natural frequency.
+  const auto known_number = [&](double number) {
+    return number == 1.0 && !drive.is_rounded ? Interval(1.0) : AsWritten()(number);
+  };
+  return {known_number(servo.servo.backlash),
+          Interval(1.0) / known_number(servo.natural_frequency)};
+}
+
+Bounds scaled(const Bounds& bounds, const Interval& unit) {
+  return (Interval(bounds) * unit).bounds();
+}
+
+ProvedBounds bounds_of(const CycleBounds& bounds, const Scales& scales) {
+  ProvedBounds proved{.growth_at_rest = bounds.growth_at_rest};
+  if (!bounds.has_cycle) return proved;
+  proved.has_cycle = true;
+  proved.amplitude = scaled(bounds.amplitude, scales.backlash);
+  proved.period = scaled(bounds.period, scales.time_unit);
+  proved.multiplier = bounds.multiplier;
+  return proved;
+}
+
+LimitCycleAnalysis enclosed_cycles(const Drive& drive, const ProportionalServo& servo,
+                                   const DriveBox& box) {
+  if (servo.is_as_given) return enclose_limit_cycles(servo.servo, reading_of(drive));
+  return enclose_limit_cycles(servo.servo, box.servo);
+}
+
 }  // namespace
 
-Answer answer_of(const LimitCycleAnalysis& analysis, const ClosedFormServo& servo,
-                 std::optional<double> stiffness) {
+Answer answer_of(const LimitCycleAnalysis& analysis, const ProportionalServo& servo) {
   const double time_unit = 1.0 / servo.natural_frequency;
   const NormalizedServo& normal = servo.servo;
   Answer answer;
@@ -49,19 +86,34 @@ Answer answer_of(const LimitCycleAnalysis& analysis, const ClosedFormServo& serv
                                          .backlash = normal.backlash,
                                          .restitution = normal.restitution,
                                          .natural_frequency = servo.natural_frequency,
-                                         .stiffness = stiffness};
+                                         .stiffness = servo.stiffness};
   answer.growth_at_rest = known(analysis.growth_at_rest);
   answer.is_dissipative = analysis.is_dissipative;
   answer.rests_engaged = analysis.rests_engaged;
   answer.neutral_swings = analysis.neutral_swings;
   const Certainty of_cycles = analysis.is_proved() ? analysis.certainty : Certainty::computed;
   for (const LimitCycle& cycle : analysis.cycles) {
-    answer.cycles.push_back(cycle_of(cycle, of_cycles, time_unit, stiffness));
+    answer.cycles.push_back(cycle_of(cycle, of_cycles, time_unit, servo.stiffness));
   }
   if (const auto amplitude = known(analysis.irregular_amplitude)) {
     answer.irregular.push_back({.amplitude = *amplitude});
   }
   return answer;
+}
+
+Answer answer_of(const ProportionalServo& servo) {
+  return answer_of(analyse_limit_cycles(servo.servo), servo);
+}
+
+ClosedAnswer closed_answer(const Drive& drive, const ProportionalServo& servo, bool proofs) {
+  const DriveBox box = box_of(drive, servo);
+  ClosedAnswer found{.cycles = proofs ? enclosed_cycles(drive, servo, box)
+                                      : analyse_limit_cycles(servo.servo)};
+  found.answer = answer_of(found.cycles, servo);
+  if (found.cycles.bounds) {
+    found.answer.bounds = bounds_of(*found.cycles.bounds, scales_of(drive, servo, box));
+  }
+  return found;
 }
 
 AnswerBounds bounds_of(const DriveBox& box, double guessed_flight_time) {
@@ -83,19 +135,6 @@ double flight_time_of(const Answer& answer) {
   const Cycle* cycle = answer.largest_stable();
   if (cycle == nullptr || !answer.normal_form) return not_a_number;
   return 0.5 * cycle->separated_time * answer.normal_form->natural_frequency;
-}
-
-Answer with_backlash(Answer answer, double backlash) {
-  const double factor = backlash / answer.normal_form->backlash;
-  answer.normal_form->backlash = backlash;
-  for (Cycle& cycle : answer.cycles) {
-    cycle.amplitude *= factor;
-    cycle.motor_amplitude *= factor;
-    cycle.impact_speed *= factor;
-    cycle.energy.reset();
-  }
-  for (IrregularMotion& motion : answer.irregular) motion.amplitude *= factor;
-  return answer;
 }
 
 }  // namespace gearlash

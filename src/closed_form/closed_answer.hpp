@@ -7,14 +7,23 @@
 #include "closed_form/limit_cycle.hpp"
 #include "gearlash/answer.hpp"
 #include "model/answer_bounds.hpp"
-#include "model/reduced_drive.hpp"
+#include "model/proportional_servo.hpp"
 
 namespace gearlash {
 
-/// In SI. `stiffness`: K, N m/rad; without it there are no energies. Proved bounds are left out,
-/// because they need the error of the data.
-Answer answer_of(const LimitCycleAnalysis& analysis, const ClosedFormServo& servo,
-                 std::optional<double> stiffness);
+/// In SI, without proved bounds. Without a known stiffness there are no energies.
+Answer answer_of(const LimitCycleAnalysis& analysis, const ProportionalServo& servo);
+/// What analyse_limit_cycles() gives. Throws InvalidInput.
+Answer answer_of(const ProportionalServo& servo);
+
+/// An answer with what it was made of, for pictures.
+struct ClosedAnswer {
+  Answer answer{};
+  LimitCycleAnalysis cycles{};  ///< in units of the normal form
+};
+/// `servo`: the drive's settled_servo(). Proofs, where wanted, are about the data that the servo's
+/// numbers stand for. Throws InvalidInput.
+ClosedAnswer closed_answer(const Drive& drive, const ProportionalServo& servo, bool proofs);
 
 /// What is proved of all drives of a box, by bound_cycles(), which takes the guess.
 AnswerBounds bounds_of(const DriveBox& box, double guessed_flight_time);
@@ -22,9 +31,5 @@ AnswerBounds bounds_of(const DriveBox& box, double guessed_flight_time);
 /// The flight time of half a plastic cycle in units of 1/ω_n: a guess for boxes around the drive.
 /// NaN if none is known.
 double flight_time_of(const Answer& answer);
-
-/// The answer of the same drive with another backlash: its motions are proportional to it. Without
-/// energies. Precondition: an answer of the closed form, with a backlash.
-Answer with_backlash(Answer answer, double backlash);
 
 }  // namespace gearlash

@@ -10,7 +10,7 @@
 #include "input/section_reader.hpp"
 #include "input/units.hpp"
 #include "model/parameter_values.hpp"
-#include "model/reduced_drive.hpp"
+#include "model/proportional_servo.hpp"
 #include "question/axis.hpp"
 #include "question/change/values.hpp"
 

@@ -133,8 +133,6 @@ const char* name_of(RestKind kind) {
   return "";
 }
 
-const char* name_of(Engine engine) {
-  return engine == Engine::closed_form ? "closed form" : "general";
-}
+const char* name_of(Engine engine) { return engine == Engine::general ? "general" : "closed form"; }
 
 }  // namespace gearlash

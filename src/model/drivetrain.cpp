@@ -36,7 +36,6 @@ std::vector<Fault> faults(const Drivetrain& drivetrain) {
   NormalizedServo servo = sound ? normalize_sound(drivetrain) : NormalizedServo{};
   servo.backlash = drivetrain.backlash;
   servo.restitution = drivetrain.restitution;
-  servo.sensor = drivetrain.sensor;
   check.include(faults(servo));
   return check.faults();
 }
@@ -51,7 +50,6 @@ NormalizedServo normalize_sound(const Drivetrain& drivetrain) {
   servo.friction_ratio = friction > 0.0 ? drivetrain.load_friction / friction : 0.0;
   servo.backlash = drivetrain.backlash;
   servo.restitution = drivetrain.restitution;
-  servo.sensor = drivetrain.sensor;
   return servo;
 }
 

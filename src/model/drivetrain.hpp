@@ -15,7 +15,6 @@ struct DrivetrainOf {
   Number stiffness = 0.0;       ///< K, N m/rad, > 0: torque at the load per unit position error
   Number backlash = 0.0;        ///< b, rad, ≥ 0, face to face at the load shaft
   Number restitution = 0.0;     ///< e, 0 … 1
-  ShaftName sensor = ShaftName::load;
 
   bool operator==(const DrivetrainOf&) const = default;
 };

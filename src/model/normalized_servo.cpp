@@ -40,8 +40,6 @@ std::string permitted_values(std::string_view field) {
   }
   if (field == "friction_ratio" || field == "restitution") return share_range.text();
   if (field == "backlash") return backlash_range.text() + " (rad)";
-  if (field == "sensor")
-    return "load (limit-cycle, simulate, describe and compare take one on the motor)";
   return "";
 }
 
@@ -55,9 +53,6 @@ std::vector<Fault> faults(const NormalizedServo& servo) {
   require(share_range.includes(servo.friction_ratio), "friction_ratio", servo.friction_ratio);
   require(backlash_range.includes(servo.backlash), "backlash", servo.backlash);
   require(share_range.includes(servo.restitution), "restitution", servo.restitution);
-  if (servo.sensor != ShaftName::load) {
-    check.refuse("sensor", "motor", "must be " + permitted_values("sensor"));
-  }
   const double load_friction = servo.damping * servo.friction_ratio;
   const double motor_friction = servo.damping * (1.0 - servo.friction_ratio);
   if (servo.inertia_ratio == 0.0 && load_friction == 0.0) {

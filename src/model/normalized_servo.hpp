@@ -6,11 +6,10 @@
 #include <vector>
 
 #include "base/fault.hpp"
-#include "gearlash/controller.hpp"
 
 namespace gearlash {
 
-/// The six inputs of every chart of the 1960 thesis (restitution and sensor were fixed there).
+/// The inputs of every chart of the 1960 thesis (restitution was fixed there).
 ///
 /// With J_M + J_L = 1, K = 1 and y the load's position from the reference, the equations are
 ///   engaged    ÿ + 2ζẏ + y = 0,
@@ -21,7 +20,6 @@ struct NormalizedServo {
   double friction_ratio = 0.5;  ///< F_L/(F_M+F_L), 0 … 1; without effect where damping is 0
   double backlash = 0.0;        ///< b, rad at the load shaft, face to face, 0 or 1e-15 … 1e6
   double restitution = 0.0;     ///< e, 0 (plastic) … 1 (elastic)
-  ShaftName sensor = ShaftName::load;
 
   bool operator==(const NormalizedServo&) const = default;
 };
@@ -33,7 +31,7 @@ std::string permitted_values(std::string_view field);
 /// Every fault in the ranges above, and in two rules that join fields. A massless load
 /// (inertia_ratio 0) needs load friction, and a massless motor (infinity) needs motor friction,
 /// because a shaft with neither inertia nor friction has no law of motion in the gap.
-/// ShaftName::motor is refused. Empty for a sound servo.
+/// Empty for a sound servo.
 std::vector<Fault> faults(const NormalizedServo& servo);
 
 }  // namespace gearlash

@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "model/parameters.hpp"
+#include "model/reduced_drive.hpp"
+#include "model/reduction.hpp"
 
 namespace gearlash::drive {
 namespace {
@@ -49,3 +54,84 @@ std::optional<Drivetrain> proportional_drivetrain(const ReducedDrive& drive) {
 }
 
 }  // namespace gearlash::drive
+
+namespace gearlash {
+namespace {
+
+ProportionalServo servo_of(const Drive& drive, const Drivetrain& drivetrain) {
+  ProportionalServo servo{.drivetrain = drivetrain};
+  if (!drive.servo || is_normalized(drive)) servo.stiffness = drivetrain.stiffness;
+  if (!drive.servo) {
+    servo.servo = normalize_sound(drivetrain);
+    servo.natural_frequency = natural_frequency(drivetrain);
+    return servo;
+  }
+  const NormalForm& form = *drive.servo;
+  servo.is_as_given = true;
+  servo.natural_frequency = form.natural_frequency.value_or(1.0);
+  servo.servo = {.damping = form.damping,
+                 .inertia_ratio = form.inertia_ratio,
+                 .friction_ratio = form.friction_ratio,
+                 .backlash = form.backlash,
+                 .restitution = Reduction<AsRead>(drive).restitution()};
+  return servo;
+}
+
+}  // namespace
+
+std::optional<ProportionalServo> proportional_servo(const Drive& drive) {
+  const std::optional<Drivetrain> drivetrain = drive::proportional_drivetrain(reduce(drive));
+  if (!drivetrain || (!drive.servo && !faults(*drivetrain).empty())) return std::nullopt;
+  return servo_of(drive, *drivetrain);
+}
+
+std::optional<ProportionalServo> settled_servo(const Drive& drive) {
+  return proportional_servo(without_ended_signals(drive));
+}
+
+ProportionalServo servo_without_checks(const Drive& drive) {
+  return servo_of(drive, referred_drivetrain(drive));
+}
+
+std::optional<Drive> normal_form_of(const Drive& drive) {
+  const std::optional<ProportionalServo> found = proportional_servo(drive);
+  if (!found) return std::nullopt;
+  const NormalizedServo& servo = found->servo;
+  Drive form = normal_form(servo.damping, servo.inertia_ratio, servo.friction_ratio, servo.backlash,
+                           servo.restitution);
+  form.servo->natural_frequency = found->natural_frequency;
+  form.is_rounded = drive.is_rounded || !found->is_as_given;
+  return form;
+}
+
+Drive without_ended_signals(Drive drive) {
+  if (drive.reference && std::holds_alternative<double>(drive::settled(*drive.reference))) {
+    drive.reference.reset();
+  }
+  if (drive.load_torque && drive::settled(*drive.load_torque) == Signal{0.0}) {
+    drive.load_torque.reset();
+  }
+  return drive;
+}
+
+bool enters_servo(const Drive& drive, std::string_view path) {
+  const Parameter* parameter = find_parameter(path, drive);
+  if (parameter == nullptr && drive.servo) return enters_servo(physical_form(drive), path);
+  if (parameter == nullptr || !exists(*parameter, drive)) return false;
+  // A factor of 0 would hide what it multiplies.
+  Drive present = drive;
+  if (present.servo && present.servo->damping == 0.0) present.servo->damping = 1.0;
+  if (present.gearbox.ratio == 0.0) present.gearbox.ratio = 1.0;
+  Drive changed = present;
+  const Slot slot = parameter->slot(changed);
+  double* place = std::get_if<double*>(&slot) ? std::get<double*>(slot) : nullptr;
+  if (auto* const* given = std::get_if<std::optional<double>*>(&slot); given && **given) {
+    place = &***given;
+  }
+  if (place == nullptr || (*place == 0.0 && parameter->path == "gearbox.inertia")) return false;
+  *place = *place == 0.0 || std::isinf(*place) ? 0.5 : 0.75 * *place;
+  const auto after = drive::proportional_drivetrain(reduce(changed));
+  return after && *after != drive::proportional_drivetrain(reduce(present));
+}
+
+}  // namespace gearlash

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "base/decimal.hpp"
-#include "model/proportional_servo.hpp"
 #include "model/reduction.hpp"
 
 namespace gearlash {
@@ -93,11 +92,6 @@ Drive physical_form(const Drive& drive) {
 
 bool is_normalized(const Drive& drive) { return drive.servo && !drive.servo->natural_frequency; }
 
-std::optional<Drivetrain> proportional_drivetrain(const Drive& drive) {
-  const std::optional<Drivetrain> drivetrain = drive::proportional_drivetrain(reduce(drive));
-  return drivetrain && faults(*drivetrain).empty() ? drivetrain : std::nullopt;
-}
-
 namespace {
 
 /// Output per error and per sensed speed of a proportional controller.
@@ -136,39 +130,6 @@ Drivetrain referred_drivetrain(const Drive& drive) {
           .stiffness = per_output * gains.error,
           .backlash = drive.gearbox.backlash,
           .restitution = Reduction<AsRead>(drive).restitution()};
-}
-
-ClosedFormServo normal_form_servo(const Drive& drive) {
-  const NormalForm& form = *drive.servo;
-  return {{.damping = form.damping,
-           .inertia_ratio = form.inertia_ratio,
-           .friction_ratio = form.friction_ratio,
-           .backlash = form.backlash,
-           .restitution = Reduction<AsRead>(drive).restitution()},
-          form.natural_frequency.value_or(1.0),
-          true};
-}
-
-std::optional<ClosedFormServo> closed_form_servo(const Drive& drive) {
-  const std::optional<Drivetrain> drivetrain = drive::proportional_drivetrain(reduce(drive));
-  return drivetrain ? closed_form_servo(drive, *drivetrain) : std::nullopt;
-}
-
-std::optional<ClosedFormServo> closed_form_servo(const Drive& drive, const Drivetrain& drivetrain) {
-  if (drive.servo) return normal_form_servo(drive);
-  if (!faults(drivetrain).empty()) return std::nullopt;
-  return ClosedFormServo{normalize_sound(drivetrain), natural_frequency(drivetrain), false};
-}
-
-std::optional<Drive> normal_form_of(const Drive& drive) {
-  const std::optional<ClosedFormServo> closed = closed_form_servo(drive);
-  if (!closed) return std::nullopt;
-  const NormalizedServo& servo = closed->servo;
-  Drive form = normal_form(servo.damping, servo.inertia_ratio, servo.friction_ratio, servo.backlash,
-                           servo.restitution);
-  form.servo->natural_frequency = closed->natural_frequency;
-  form.is_rounded = drive.is_rounded || !closed->is_as_given;
-  return form;
 }
 
 }  // namespace gearlash

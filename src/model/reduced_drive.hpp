@@ -1,4 +1,4 @@
-// A drive with all its numbers referred to the load's shaft, and its servo for the closed form.
+// A drive with all its numbers referred to the load's shaft.
 #pragma once
 
 #include <optional>
@@ -65,37 +65,7 @@ Drive physical_form(const Drive& drive);
 /// for people give times in units of 1/ω_n.
 bool is_normalized(const Drive& drive);
 
-/// The servo that the closed form analyses.
-struct ClosedFormServo {
-  NormalizedServo servo;
-  double natural_frequency = 1.0;  ///< ω_n, rad/s
-  /// The normal form's own numbers; otherwise they are computed from data with units.
-  bool is_as_given = false;
-};
-
-/// The conditions for a closed form, for faults.
-inline constexpr char permitted_with_closed_form[] =
-    "must have a closed-form answer for this: proportional control of the load's position, "
-    "continuous, exact and unlimited; rigid faces; no dry friction";
-
-/// The servo of 1960 that is physically equivalent to a drive: proportional control of the load's
-/// position, continuous, exact, unlimited, rigid faces, no dry friction, a constant reference, no
-/// load torque; speed fed back from the motor is friction on it. Sides without inertia and gaps of
-/// 0 are included. Empty for any other drive. Precondition: every parameter is in its range.
-std::optional<ClosedFormServo> closed_form_servo(const Drive& drive);
-/// The same with its proportional_drivetrain(), if that is known.
-std::optional<ClosedFormServo> closed_form_servo(const Drive& drive, const Drivetrain& drivetrain);
-
-/// The same servo as a normal form with its natural frequency; empty for any other drive. Numbers
-/// computed from data with units are rounded. Precondition as above.
-std::optional<Drive> normal_form_of(const Drive& drive);
-/// The servo that a normal form with a closed form is, without checks.
-ClosedFormServo normal_form_servo(const Drive& drive);
-
-/// Its drivetrain, with the same conditions.
-std::optional<Drivetrain> proportional_drivetrain(const Drive& drive);
-
-/// Its drivetrain for one that is known to have a closed form, without checks:
+/// The drivetrain of a drive that is known to be a proportional servo, without checks:
 ///   J_M = (J + J_G) n²,  F_M = (f + E) n² + S d,  K = S g,  S = gain_scale(),
 /// E the winding's friction (K₁K₂/R, 0, K_N, 0), more by the torque per output times the feedback
 /// of the motor's speed, g and d the controller's output per error and per speed; or of a normal

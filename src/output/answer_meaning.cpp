@@ -106,7 +106,7 @@ std::string meaning_when_undecided(const Answer& answer) {
   return "The numerics could not decide. The table has what is known.";
 }
 
-std::string meaning_of_closed_form(const AnswerReport& report) {
+std::string meaning_of_solution(const AnswerReport& report) {
   const Answer& answer = report.answer;
   switch (answer.verdict) {
     case Verdict::cannot_hunt:
@@ -193,7 +193,7 @@ std::string search_text(const AnswerReport& report) {
 }  // namespace
 
 std::string meaning_text(const AnswerReport& report) {
-  if (report.answer.engine == Engine::closed_form) return meaning_of_closed_form(report);
+  if (report.answer.engine != Engine::general) return meaning_of_solution(report);
   if (report.answer.search) return search_text(report);
   return report.answer.verdict == Verdict::cannot_hunt ? meaning_by_energy(report.answer) : "";
 }

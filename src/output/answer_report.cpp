@@ -187,7 +187,7 @@ const char* multiplier_remark(Stability stability) {
 }
 
 void add_contact(ReportRows& rows, const Cycle& cycle, const Answer& answer, const Units& units) {
-  if (answer.engine == Engine::closed_form) {
+  if (answer.engine != Engine::general) {
     rows.push_back({"impacts", fmt::format("{} per period", cycle.events_per_period),
                     cycle.settles ? "faces stay together" : "faces bounce apart"});
   }
@@ -498,8 +498,8 @@ std::string headline_of_verdict(const AnswerReport& report) {
       if (backlash_of(report) == 0.0) return verdict + ": no backlash";
       return verdict + ": " + growth_beside_one(answer);
     case Verdict::undecided:
-      return answer.engine == Engine::closed_form ? verdict + ": " + growth_beside_one(answer)
-                                                  : verdict;
+      return answer.engine != Engine::general ? verdict + ": " + growth_beside_one(answer)
+                                              : verdict;
     default:
       return verdict;
   }
@@ -533,7 +533,7 @@ std::string answer_text(const AnswerReport& report) {
   for (const Note& note : answer.notes) {
     if (note.code == "undecided-start") text += wrapped(note.text);
   }
-  if (answer.engine == Engine::closed_form) text += offer_text(report);
+  if (answer.engine != Engine::general) text += offer_text(report);
   return text;
 }
 

@@ -12,6 +12,7 @@
 #include "model/firmware.hpp"
 #include "model/gains.hpp"
 #include "model/parameters.hpp"
+#include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/columns.hpp"
 #include "output/json_values.hpp"
@@ -291,7 +292,7 @@ Json firmware_json(const Drive& drive) {
 
 std::string show_text(const Drive& drive) {
   std::string remark;
-  if (const auto closed = closed_form_servo(drive)) {
+  if (const auto closed = proportional_servo(drive)) {
     const NormalizedServo& servo = closed->servo;
     remark = fmt::format(
         "# Normal form: damping {:.4g}, inertia ratio {:.4g}, friction ratio {:.4g}, natural "
@@ -311,7 +312,7 @@ std::string show_json(const Drive& drive, const Provenance& provenance) {
   Json json = json_head("show", drive, provenance);
   json["normal_form"] = nullptr;
   json["linear_loop"] = nullptr;
-  if (const auto closed = closed_form_servo(drive)) {
+  if (const auto closed = proportional_servo(drive)) {
     json["normal_form"] = json_normal_form(closed->servo, closed->natural_frequency);
   } else {
     const drive::TimeScales scales = drive::time_scales(reduce(drive));

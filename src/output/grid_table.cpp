@@ -117,7 +117,7 @@ std::string certainty_of(const Grid& grid) {
   const std::string plastic = name_of(grid.proved ? Certainty::enclosed : Certainty::computed);
   const std::string searched = name_of(Certainty::searched);
   if (engines.search) {
-    return engines.closed_form ? plastic + " in closed form, " + searched + " elsewhere" : searched;
+    return engines.solution ? plastic + " in closed form, " + searched + " elsewhere" : searched;
   }
   return engines.bounces ? plastic + " for plastic contact, " + searched + " for restitution > 0"
                          : plastic;

@@ -7,7 +7,7 @@
 #include "picture/grid_words.hpp"
 #include "picture/hunting_curve.hpp"
 #include "question/family/evaluation.hpp"
-#include "question/map/hunting_end.hpp"
+#include "question/map/hunting_boundary.hpp"
 
 namespace gearlash {
 namespace {
@@ -19,8 +19,8 @@ ChartCurve curve_of(const GridTable& table, const Family& family, std::size_t fi
   std::vector<double> place = values_at(table.grid, first);
   const auto servo_at = [&](double on_curve) {
     place.back() = on_curve;
-    const std::optional<FinalServo> servo = family.servo_at(place);
-    return servo ? servo->closed_form.servo : NormalizedServo{.damping = 1.0};
+    const std::optional<ProportionalServo> servo = family.servo_at(place);
+    return servo ? servo->servo : NormalizedServo{.damping = 1.0};
   };
   const bool is_plastic = !family.engines().bounces && !family.engines().search;
   const double limit = limit_where_hunting_ends(quantity, servo_at(x.values.front()).backlash)

@@ -1,6 +1,6 @@
 #include "picture/hunting_curve.hpp"
 
-#include "question/map/hunting_end.hpp"
+#include "question/map/hunting_boundary.hpp"
 
 namespace gearlash {
 

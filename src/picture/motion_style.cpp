@@ -7,6 +7,7 @@
 
 #include "gearlash/fault.hpp"
 #include "input/drive_file.hpp"
+#include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/report_units.hpp"
 
@@ -53,7 +54,7 @@ std::string numbers_line(const MotionPicture& picture) {
   drive.load_torque.reset();
   const drive::ReducedDrive reduced = reduce(drive);
   std::string line = "backlash " + angle_text(reduced.backlash, picture.angle, 4);
-  if (const auto closed = closed_form_servo(drive)) {
+  if (const auto closed = proportional_servo(drive)) {
     const NormalizedServo& servo = closed->servo;
     line = fmt::format("damping {}, inertia ratio {}, friction ratio {}, {}",
                        significant(servo.damping, 3), significant(servo.inertia_ratio, 3),

@@ -14,11 +14,11 @@
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
 #include "closed_form/closed_answer.hpp"
+#include "closed_form/drive_box.hpp"
 #include "general/attractors/search_setting.hpp"
 #include "model/proportional_servo.hpp"
 #include "question/contradictions.hpp"
 #include "question/drive_notes.hpp"
-#include "question/final_servo.hpp"
 #include "question/loop/ceiling/ceiling.hpp"
 #include "question/loop/energy/absence_by_energy.hpp"
 #include "question/loop/energy/computed_rest.hpp"
@@ -29,46 +29,6 @@
 
 namespace gearlash {
 namespace {
-
-// ---- closed form --------------------------------------------------------------------------------
-
-/// Factors from the normal form to SI, with the error of the data.
-struct Scales {
-  Interval backlash;
-  Interval time_unit;
-};
-
-Scales scales_of(const Drive& drive, const ClosedFormServo& servo, const DriveBox& box) {
-  if (!servo.is_as_given) return {Interval(box.backlash), Interval(box.time_unit)};
-  // They may have units; 1 is what they are without a backlash and a natural frequency.
-  const auto known_number = [&](double number) {
-    return number == 1.0 && !drive.is_rounded ? Interval(1.0) : AsWritten()(number);
-  };
-  return {known_number(servo.servo.backlash),
-          Interval(1.0) / known_number(servo.natural_frequency)};
-}
-
-Bounds scaled(const Bounds& bounds, const Interval& unit) {
-  return (Interval(bounds) * unit).bounds();
-}
-
-ProvedBounds bounds_of(const CycleBounds& bounds, const Scales& scales) {
-  ProvedBounds proved{.growth_at_rest = bounds.growth_at_rest};
-  if (!bounds.has_cycle) return proved;
-  proved.has_cycle = true;
-  proved.amplitude = scaled(bounds.amplitude, scales.backlash);
-  proved.period = scaled(bounds.period, scales.time_unit);
-  proved.multiplier = bounds.multiplier;
-  return proved;
-}
-
-/// Proofs are about the data that the servo's numbers stand for.
-LimitCycleAnalysis closed_analysis(const Drive& drive, const ClosedFormServo& servo,
-                                   const DriveBox& box, const Wanted& wanted) {
-  if (!wanted.proofs) return analyse_limit_cycles(servo.servo);
-  if (servo.is_as_given) return enclose_limit_cycles(servo.servo, reading_of(drive));
-  return enclose_limit_cycles(servo.servo, box.servo);
-}
 
 // ---- search -------------------------------------------------------------------------------------
 
@@ -431,15 +391,10 @@ Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress,
   require_none(faults(drive));
   Analysis analysis;
   analysis.reduced = reduce_settled(drive);
-  if (const std::optional<FinalServo> found = final_servo(drive)) {
-    const DriveBox box = box_of(drive, *found);
-    analysis.servo = found->closed_form;
-    analysis.closed = closed_analysis(drive, *analysis.servo, box, wanted);
-    analysis.answer = answer_of(*analysis.closed, *analysis.servo, found->stiffness);
-    if (analysis.closed->bounds) {
-      const Scales scales = scales_of(drive, *analysis.servo, box);
-      analysis.answer.bounds = bounds_of(*analysis.closed->bounds, scales);
-    }
+  if ((analysis.servo = settled_servo(drive))) {
+    ClosedAnswer found = closed_answer(drive, *analysis.servo, wanted.proofs);
+    analysis.answer = std::move(found.answer);
+    analysis.closed = std::move(found.cycles);
   } else if (is_absent_by_energy(drive)) {
     analysis.search = drive::AttractorSearch{};
     analysis.answer = answer_by_energy(analysis.reduced);
@@ -536,6 +491,12 @@ void add_figures(const Drive& of, const Wanted& wanted, Answer& answer, Progress
     answer.step =
         drive::step_response(drive, *wanted.step, drive::usual_step(drive).until, progress);
   }
+}
+
+std::optional<AnswerBounds> proved_bounds(const Drive& drive, const Answer& answer) {
+  const std::optional<ProportionalServo> servo = settled_servo(drive);
+  if (!servo || !servo_dynamics(servo->servo).plastic_contact()) return std::nullopt;
+  return bounds_of(box_of(drive, *servo), flight_time_of(answer));
 }
 
 Analysis analyse_in_full(const Drive& drive, const Wanted& wanted, Progress& progress) {

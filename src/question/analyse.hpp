@@ -7,6 +7,8 @@
 #include "closed_form/limit_cycle.hpp"
 #include "gearlash/analyse.hpp"
 #include "general/attractors/attractors.hpp"
+#include "model/answer_bounds.hpp"
+#include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash {
@@ -14,8 +16,8 @@ namespace gearlash {
 /// An answer with its engine's intermediate results, for pictures.
 struct Analysis {
   Answer answer{};
-  drive::ReducedDrive reduced{};           ///< with its signals settled
-  std::optional<ClosedFormServo> servo{};  ///< closed form only
+  drive::ReducedDrive reduced{};             ///< with its signals settled
+  std::optional<ProportionalServo> servo{};  ///< of the closed form, with its cycles
   std::optional<LimitCycleAnalysis> closed{};
   std::optional<drive::AttractorSearch> search{};
   bool is_followed = false;  ///< the search followed that of a neighbouring drive
@@ -36,6 +38,10 @@ Analysis analyse_near(const Drive& drive, const Analysis& near, const Wanted& wa
 Analysis analyse_until(const Drive& drive, const Wanted& wanted,
                        const std::function<bool(const drive::AttractorSearch&)>& is_enough,
                        Progress& progress = no_progress(), const Analysis* near = nullptr);
+
+/// What is proved of all drives that the drive's data may stand for; empty where nothing is, but
+/// for ceilings. `answer`: the drive's own.
+std::optional<AnswerBounds> proved_bounds(const Drive& drive, const Answer& answer);
 
 /// Whether the verdict is known. One of hunting is not if the search found no amplitude.
 bool is_decided(const Answer& answer);

@@ -68,6 +68,10 @@ const NormalFormNumber* normal_form_number(std::string_view path) {
   return found == normal_form_numbers.end() ? nullptr : &*found;
 }
 
+std::string_view path_of(const NormalFormNumber& number, bool is_normal_form) {
+  return !is_normal_form && number.path == "servo.backlash" ? "gearbox.backlash" : number.path;
+}
+
 Axis spaced_axis(std::string_view field, std::string path, double from, double to,
                  std::size_t count, Spacing spacing) {
   const bool is_logarithmic = spacing == Spacing::logarithmic;
@@ -252,9 +256,7 @@ std::string path_named(std::string_view name, const Drive& drive) {
   std::string underscored(name);
   std::replace(underscored.begin(), underscored.end(), '-', '_');
   for (const NormalFormNumber& number : normal_form_numbers) {
-    if (underscored != number.name) continue;
-    const bool is_of_plant = !drive.servo && underscored == "backlash";
-    return is_of_plant ? "gearbox.backlash" : std::string(number.path);
+    if (underscored == number.name) return std::string(path_of(number, drive.servo.has_value()));
   }
   return std::string(name);
 }

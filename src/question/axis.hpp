@@ -33,6 +33,8 @@ inline constexpr std::array<NormalFormNumber, 5> normal_form_numbers = {
      {"restitution", "contact.restitution", &NormalizedServo::restitution}}};
 /// The number with that path; nullptr for any other path.
 const NormalFormNumber* normal_form_number(std::string_view path);
+/// The path of a drive that is a normal form, or of any other: of the backlash it differs.
+std::string_view path_of(const NormalFormNumber& number, bool is_normal_form);
 
 enum class Spacing { linear, logarithmic };
 

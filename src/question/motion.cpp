@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "base/decimal_multiples.hpp"
 #include "base/range_check.hpp"
 #include "closed_form/trajectory.hpp"
+#include "general/assemble/time_scale.hpp"
+#include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 #include "model/signal.hpp"
 
@@ -41,10 +44,10 @@ const char* text_of(const Event& event) {
 }
 
 /// The trajectory's unit of time is 1/ω_n.
-class ClosedFormMotion : public Motion::Source {
+class ServoMotion : public Motion::Source {
  public:
-  ClosedFormMotion(const ClosedFormServo& servo, const drive::ReducedDrive& reduced,
-                   Trajectory trajectory)
+  ServoMotion(const ProportionalServo& servo, const drive::ReducedDrive& reduced,
+              Trajectory trajectory)
       : trajectory_(std::move(trajectory)),
         rate_(servo.natural_frequency),
         stiffness_(reduced.controller.direct[0]),
@@ -259,10 +262,9 @@ void check_span(const Span& span, const Start& start, double longest, RangeCheck
   }
 }
 
-std::shared_ptr<Motion::Source> closed_form_motion(const ClosedFormServo& servo,
-                                                   const drive::ReducedDrive& reduced,
-                                                   const Span& span, const Start& start,
-                                                   double gap) {
+std::shared_ptr<Motion::Source> servo_motion(const ProportionalServo& servo,
+                                             const drive::ReducedDrive& reduced, const Span& span,
+                                             const Start& start, double gap) {
   const double rate = servo.natural_frequency;
   ServoState state{.motor_position = start.load_position + gap,
                    .load_position = start.load_position,
@@ -272,7 +274,7 @@ std::shared_ptr<Motion::Source> closed_form_motion(const ClosedFormServo& servo,
                                    {.until = span.until * rate,
                                     .reference = std::get<double>(reduced.reference),
                                     .event_limit = span.most_events});
-  return std::make_shared<ClosedFormMotion>(servo, reduced, std::move(trajectory));
+  return std::make_shared<ServoMotion>(servo, reduced, std::move(trajectory));
 }
 
 std::shared_ptr<Motion::Source> general_motion(const drive::ReducedDrive& reduced, const Span& span,
@@ -306,6 +308,15 @@ const std::shared_ptr<const Motion::Source>& nothing() {
 
 }  // namespace
 
+double period_of_loop(const Drive& drive) {
+  Drive at_rest = drive;
+  at_rest.reference.reset();
+  at_rest.load_torque.reset();
+  const std::optional<ProportionalServo> servo = proportional_servo(at_rest);
+  return servo ? 2.0 * std::numbers::pi / servo->natural_frequency
+               : drive::time_scales(reduce(drive)).swing;
+}
+
 Motion motion_of(drive::DriveSystem system, hybrid::Trajectory trajectory, double until) {
   auto source = std::make_shared<GeneralMotion>(std::move(system), std::move(trajectory));
   source->asked_until = std::min(until, source->end_time);
@@ -317,7 +328,7 @@ Motion simulate(const Drive& drive, const Span& span, Progress& progress) {
   if (!progress.go_on(0.0)) return {};
   const Drive simple = with_constant_signals(drive);
   const drive::ReducedDrive reduced = reduce(simple);
-  const std::optional<ClosedFormServo> servo = closed_form_servo(simple);
+  const std::optional<ProportionalServo> servo = proportional_servo(simple);
   const Start start = span.start.value_or(Start{});
   RangeCheck check;
   const double gap = gap_of(start, reduced, check);
@@ -327,7 +338,7 @@ Motion simulate(const Drive& drive, const Span& span, Progress& progress) {
       check);
   require_none(check.faults());
   std::shared_ptr<Motion::Source> source =
-      servo ? closed_form_motion(*servo, reduced, span, start, gap)
+      servo ? servo_motion(*servo, reduced, span, start, gap)
             : general_motion(reduced, span, start, gap, progress);
   source->asked_until =
       source->stop == MotionStop::reached_end ? span.until : std::min(span.until, source->end_time);

@@ -1,7 +1,6 @@
 #include "thesis/exact_curve.hpp"
 
 #include "base/special_numbers.hpp"
-#include "closed_form/limit_cycle.hpp"
 #include "picture/hunting_curve.hpp"
 
 namespace gearlash::thesis {

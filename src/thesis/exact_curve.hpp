@@ -1,10 +1,12 @@
-// The exact amplitudes, for comparison with those of 1960.
+// The exact motions and amplitudes, by the closed form, for comparison with those of 1960.
 #pragma once
 
 #include <functional>
 #include <optional>
 #include <vector>
 
+#include "closed_form/limit_cycle.hpp"
+#include "closed_form/trajectory.hpp"
 #include "model/normalized_servo.hpp"
 #include "picture/line_chart.hpp"
 

@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "base/special_numbers.hpp"
-#include "closed_form/limit_cycle.hpp"
 #include "thesis/exact_curve.hpp"
 #include "thesis/figures.hpp"
 

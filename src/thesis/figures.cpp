@@ -8,7 +8,6 @@
 
 #include "base/progress_part.hpp"
 #include "base/special_numbers.hpp"
-#include "closed_form/trajectory.hpp"
 #include "thesis/exact_curve.hpp"
 #include "thesis/settled_cycle.hpp"
 

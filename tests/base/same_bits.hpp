@@ -11,11 +11,9 @@ namespace gearlash {
 
 inline bool same_bits(const Table& a, const Table& b, std::size_t row_in_a, std::size_t row_in_b) {
   return a.verdict(row_in_a) == b.verdict(row_in_b) &&
-         std::all_of(
-             closed_form_quantities.begin(), closed_form_quantities.end(), [&](Quantity quantity) {
-               return std::memcmp(&a[quantity][row_in_a], &b[quantity][row_in_b], sizeof(double)) ==
-                      0;
-             });
+         std::all_of(solved_quantities.begin(), solved_quantities.end(), [&](Quantity quantity) {
+           return std::memcmp(&a[quantity][row_in_a], &b[quantity][row_in_b], sizeof(double)) == 0;
+         });
 }
 
 inline bool same_bits(const Table& a, const Table& b) {

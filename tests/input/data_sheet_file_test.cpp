@@ -80,7 +80,7 @@ TEST(ServoFile, ReadsTheSampleProblem) {
   EXPECT_EQ(motor.resistance, 282.0);
   EXPECT_EQ(drive.sensor.position, SensorPlace::load);
   EXPECT_EQ(std::get<RigidContact>(drive.contact).restitution, 0.0);
-  EXPECT_EQ(file.drivetrain, proportional_drivetrain(drive));
+  EXPECT_EQ(file.drivetrain, proportional_servo(drive).value().drivetrain);
   EXPECT_EQ(file.servo, normalize(*file.drivetrain));
   EXPECT_EQ(file.backlash_unit, AngleUnit{});
   // Appendix B rounds every step to two or three digits.

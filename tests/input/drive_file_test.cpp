@@ -165,7 +165,7 @@ TEST(OracleDriveFile, AProportionalControllerIsTheServoOfALoop) {
             servo.drivetrain);
   // Whatever it has besides has no closed form.
   const auto with = [&](const std::string& more) {
-    return closed_form_servo(
+    return proportional_servo(
         parse_drive(plain + std::string("[loop]\nerror_gain = \"3 V/rad\"\n") + more, "drive.toml",
                     ".")
             .drive);
@@ -177,7 +177,7 @@ TEST(OracleDriveFile, AProportionalControllerIsTheServoOfALoop) {
   EXPECT_TRUE(with("[reference]\nkind = \"constant\"\nvalue = \"1 rad\"\n"));
   // Speed fed back from the motor is friction on it; from the load it is not.
   const auto with_speed = [&](const std::string& shaft) {
-    return proportional_drivetrain(
+    return proportional_servo(
         parse_drive(plain + ("[controller]\nkind = \"PD\"\nproportional = \"3 V/rad\"\n"
                              "derivative = \"0.5 V s/rad\"\n[sensor]\nspeed = \"" +
                              shaft + "\"\n"),
@@ -185,7 +185,8 @@ TEST(OracleDriveFile, AProportionalControllerIsTheServoOfALoop) {
             .drive);
   };
   ASSERT_TRUE(with_speed("motor"));
-  EXPECT_DOUBLE_EQ(with_speed("motor")->motor_friction, servo.drivetrain->motor_friction + 0.05);
+  EXPECT_DOUBLE_EQ(with_speed("motor")->drivetrain.motor_friction,
+                   servo.drivetrain->motor_friction + 0.05);
   EXPECT_FALSE(with_speed("load"));
 }
 

@@ -10,6 +10,7 @@
 #include "input/drive_file.hpp"
 #include "input/parameter_text.hpp"
 #include "input/sweep_file.hpp"
+#include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash::long_decimal_test {
@@ -154,7 +155,7 @@ TEST(LongDecimals, MatterInListsOfControllersAlone) {
   const auto is_servo = [](const std::string& direct) {
     std::string text = sheet_with(direct);
     text.replace(text.find("C = [1]"), 7, "C = [0]");
-    return closed_form_servo(parse_drive(text)).has_value();
+    return proportional_servo(parse_drive(text)).has_value();
   };
   EXPECT_TRUE(is_servo("[20.5, -20.5, 0]"));
   EXPECT_FALSE(is_servo("[20.5, -20.500000000000000000001, 0]"));

@@ -8,6 +8,7 @@
 
 #include "input/drive_file.hpp"
 #include "input/text_file.hpp"
+#include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash {
@@ -22,7 +23,7 @@ struct ServoOfFile {
 };
 
 inline std::optional<ServoOfFile> servo_of(const WrittenDrive& written) {
-  const std::optional<ClosedFormServo> closed = closed_form_servo(written.drive);
+  const std::optional<ProportionalServo> closed = proportional_servo(written.drive);
   if (!closed) return std::nullopt;
   ServoOfFile found{.servo = closed->servo, .backlash_unit = written.angle};
   if (written.drive.servo) {

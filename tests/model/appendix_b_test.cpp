@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash::appendix_b_test {
@@ -60,7 +61,7 @@ TEST(OracleAppendixB, EachStepIsAsPrinted) {
   const double mechanical = drive.motor.friction.viscous + drive.load.friction.viscous;
   expect_as_printed(mechanical / foot_pound_force, 13.7e-6, 1e-7);
   expect_as_printed(refer_output(drive).friction / foot_pound_force, 121e-6, 1e-6);
-  const NormalizedServo servo = closed_form_servo(drive)->servo;
+  const NormalizedServo servo = proportional_servo(drive)->servo;
   expect_as_printed(servo.damping, 0.19, 0.01);
   expect_as_printed(servo.inertia_ratio, 2.0, 0.1);
   expect_as_printed(servo.friction_ratio, 0.077, 0.001);
@@ -80,7 +81,7 @@ TEST(OracleAppendixA, ArmatureControlledThroughAGearbox) {
                             .backlash = 0.25,
                             .restitution = 0.5};
   EXPECT_EQ(referred_drivetrain(drive), expected);
-  EXPECT_EQ(proportional_drivetrain(drive), expected);
+  EXPECT_EQ(proportional_servo(drive).value().drivetrain, expected);
 }
 
 TEST(OracleAppendixA, FieldControlledHasNoElectricalFriction) {
@@ -106,7 +107,7 @@ TEST(OracleAppendixA, ThesisFormOfTheTwoPhaseMotor) {
   drive.gearbox = {.ratio = 1.0, .backlash = 0.3};
   drive.load = {3.0, {.viscous = 1.0}};
   drive.controller.law = PID{.proportional = 1.0};
-  const ClosedFormServo found = *closed_form_servo(drive);
+  const ProportionalServo found = *proportional_servo(drive);
   EXPECT_EQ(found.natural_frequency, 2.0);  // √(16/4)
   EXPECT_EQ(found.servo.damping, 0.25);     // (4/4)/(2·2)
   EXPECT_EQ(found.servo.inertia_ratio, 3.0);
@@ -120,9 +121,9 @@ TEST(OracleAppendixA, TheShortWayToTheDrivetrainIsThatOfTheReducedDrive) {
   for (const GainShaft shaft : {GainShaft::load, GainShaft::motor}) {
     drive.controller.shaft = shaft;
     const auto expect_same = [&] {
-      const auto expected = proportional_drivetrain(drive);
-      ASSERT_TRUE(expected.has_value());
-      EXPECT_EQ(referred_drivetrain(drive), *expected);
+      const auto servo = proportional_servo(drive);
+      ASSERT_TRUE(servo.has_value());
+      EXPECT_EQ(referred_drivetrain(drive), servo->drivetrain);
     };
     drive.controller.law = PID{.terms = PIDTerms::PD, .proportional = 4.0, .derivative = 0.5};
     expect_same();

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "gearlash/parameter.hpp"
-#include "model/closed_form_number.hpp"
 #include "model/gains.hpp"
 #include "model/parameters.hpp"
+#include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash::joint_gains_test {
@@ -45,7 +45,7 @@ TEST(JointGains, AreTorqueAtTheLoadPerAngleOfTheLoad) {
   at_motor.controller.shaft = GainShaft::motor;
   for (const Drive& same : {mixed, at_motor}) {
     EXPECT_DOUBLE_EQ(gain_scale(same) * std::get<PID>(same.controller.law).proportional, 100.0);
-    EXPECT_DOUBLE_EQ(closed_form_servo(same)->natural_frequency,
+    EXPECT_DOUBLE_EQ(proportional_servo(same)->natural_frequency,
                      std::sqrt(100.0 / (0.02 + 2e-4 * ratio * ratio)));
   }
 }
@@ -86,18 +86,18 @@ TEST(JointGains, EnterTheClosedForm) {
   Drive drive = joint({.terms = PIDTerms::PD, .proportional = 100.0, .derivative = 2.0});
   drive.sensor.position = SensorPlace::both;
   drive.motor.kind = TorqueControl{.torque_constant = 0.03};
-  EXPECT_FALSE(enters_closed_form(drive, "gearbox.inertia"));  // 0 as by default
+  EXPECT_FALSE(enters_servo(drive, "gearbox.inertia"));  // 0 as by default
   drive.gearbox.inertia = 1e-5;
   for (const std::size_t shaft : {0U, 1U, 2U}) {
     choose_shaft(drive, shaft);
     for (const char* path :
          {"gearbox.ratio", "gearbox.inertia", "controller.proportional", "controller.derivative"}) {
-      EXPECT_TRUE(enters_closed_form(drive, path)) << path;
+      EXPECT_TRUE(enters_servo(drive, path)) << path;
     }
     // Of no effect; of none by itself; no number; none of this drive.
     for (const char* path : {"motor.torque_constant", "motor.coulomb", "sensor.position",
                              "motor.resistance", "load.mass"}) {
-      EXPECT_FALSE(enters_closed_form(drive, path)) << path;
+      EXPECT_FALSE(enters_servo(drive, path)) << path;
     }
   }
 }

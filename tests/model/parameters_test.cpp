@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "gearlash/parameter.hpp"
+#include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash::parameters_test {
@@ -228,7 +229,7 @@ TEST(ReducedDrives, TheLargestCurrentIsATorqueAtTheLoad) {
   EXPECT_DOUBLE_EQ(reduced.winding.torque_limit, 0.03 * 6.0 * 50.0);
   EXPECT_DOUBLE_EQ(reduced.torque_limit, 24.0 * 0.1 * 50.0);
   EXPECT_TRUE(faults(drive).empty());
-  EXPECT_FALSE(closed_form_servo(drive));
+  EXPECT_FALSE(proportional_servo(drive));
 }
 
 TEST(ReducedDrives, RulesOfDeadBandsAndRelaysAreNamed) {
@@ -268,14 +269,14 @@ TEST(ReducedDrives, TheClosedFormIsFoundByPhysics) {
   Drive drive = joint();
   drive.motor.friction.coulomb = 0.0;
   drive.motor.limit.reset();
-  EXPECT_FALSE(closed_form_servo(drive));
+  EXPECT_FALSE(proportional_servo(drive));
   // An integrator without gain, and no derivative: proportional control.
   drive.controller.law = PID{.terms = PIDTerms::PI, .proportional = 0.5};
-  const auto closed = closed_form_servo(drive);
+  const auto closed = proportional_servo(drive);
   ASSERT_TRUE(closed);
   drive.controller.law = PID{.proportional = 0.5};
-  EXPECT_EQ(closed->servo, closed_form_servo(drive)->servo);
-  EXPECT_TRUE(closed_form_servo(normal_form(0.2, 1.0, 0.2))->is_as_given);
+  EXPECT_EQ(closed->servo, proportional_servo(drive)->servo);
+  EXPECT_TRUE(proportional_servo(normal_form(0.2, 1.0, 0.2))->is_as_given);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/range_check.hpp"
+#include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash::validation_test {
@@ -115,10 +116,9 @@ TEST(EdgeNormalizedServoRanges, AllFaultsAreListed) {
                               .inertia_ratio = -2.0,
                               .friction_ratio = 3.0,
                               .backlash = nan,
-                              .restitution = 2.0,
-                              .sensor = ShaftName::motor};
+                              .restitution = 2.0};
   EXPECT_THAT(fields(faults(servo)), ElementsAre("damping", "inertia_ratio", "friction_ratio",
-                                                 "backlash", "restitution", "sensor"));
+                                                 "backlash", "restitution"));
 }
 
 TEST(EdgeDataSheetRanges, AllFaultsAreListedForEachMotor) {
@@ -159,14 +159,14 @@ TEST(EdgeDataSheetRanges, NoInertiaAnywhereIsRefused) {
   drive.motor = {.kind = FieldControl{1.0, 1.0}, .inertia = 0.0, .friction = {1.0}};
   drive.load.inertia = 0.0;
   EXPECT_THAT(faults(drive), testing::SizeIs(1));
-  EXPECT_EQ(proportional_drivetrain(drive), std::nullopt);
+  EXPECT_FALSE(proportional_servo(drive));
 }
 
 TEST(EdgeDataSheetRanges, OverflowInReferringIsRefusedNotReturned) {
   Drive drive = sound_data_sheet();
   drive.gearbox.ratio = 1e200;  // its square is no double
   EXPECT_THAT(faults(drive), testing::Not(IsEmpty()));
-  EXPECT_EQ(proportional_drivetrain(drive), std::nullopt);
+  EXPECT_FALSE(proportional_servo(drive));
 }
 
 TEST(EdgeDrivetrainRanges, AllFaultsAreListed) {
@@ -185,9 +185,8 @@ TEST(EdgeDrivetrainRanges, EveryFieldAtFaultIsListedAtOnce) {
   drivetrain.stiffness = -1.0;
   drivetrain.backlash = -1.0;
   drivetrain.restitution = 2.0;
-  drivetrain.sensor = ShaftName::motor;
   EXPECT_THAT(fields(faults(drivetrain)),
-              UnorderedElementsAre("stiffness", "backlash", "restitution", "sensor"));
+              UnorderedElementsAre("stiffness", "backlash", "restitution"));
 }
 
 TEST(EdgeDrivetrainRanges, NormalizeThrowsAllOfThem) {

@@ -7,6 +7,7 @@
 #include "base/seeded_draws.hpp"
 #include "controllers.hpp"
 #include "gearlash/analyse.hpp"
+#include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 #include "numeric/linear_algebra.hpp"
 #include "question/loop/ceiling/ceiling.hpp"
@@ -121,12 +122,12 @@ Drive arm() {
 }
 
 TEST(AnswersWithGravity, AreNeverTheClosedForm) {
-  EXPECT_TRUE(closed_form_servo(arm()));
+  EXPECT_TRUE(proportional_servo(arm()));
   for (const double angle : {0.0, 1.5707963267948966, -0.5}) {
     Drive drive = arm();
     drive.load.gravity = 3.0;
     drive.load.gravity_angle = angle;
-    EXPECT_FALSE(closed_form_servo(drive));
+    EXPECT_FALSE(proportional_servo(drive));
   }
   // Level where the reference is 0, and held by a constant torque there: still not the servo.
   Drive held = arm();

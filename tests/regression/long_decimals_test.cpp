@@ -5,10 +5,10 @@
 #include <cmath>
 #include <string>
 
+#include "closed_form/drive_box.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/grid.hpp"
 #include "gearlash/input.hpp"
-#include "question/final_servo.hpp"
 
 namespace gearlash::long_decimals_test {
 namespace {
@@ -55,9 +55,9 @@ TEST(RegressionLongDecimals, CriticalDampingIsLeftOpenByRoundedOnes) {
 
 TEST(RegressionLongDecimals, ABoxKnowsTheFrictionThatRoundingHides) {
   Drive drive = normal_form(0.5, 2.0, 1.0);
-  EXPECT_EQ(box_of(drive, *final_servo(drive)).servo.motor_rate, (Bounds{0.0, 0.0}));
+  EXPECT_EQ(box_of(drive, *settled_servo(drive)).servo.motor_rate, (Bounds{0.0, 0.0}));
   drive.is_rounded = true;
-  const Bounds rate = box_of(drive, *final_servo(drive)).servo.motor_rate;
+  const Bounds rate = box_of(drive, *settled_servo(drive)).servo.motor_rate;
   EXPECT_EQ(rate.low, 0.0);
   EXPECT_GT(rate.high, 0x1p-53);
 }

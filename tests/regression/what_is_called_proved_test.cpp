@@ -94,7 +94,7 @@ TEST(RegressionProved, DesignDoesNotContradictItself) {
   const FeasibleValues values = gearlash::values(drive, "backlash", always_at_rest());
   const Judgement at_present = judge(
       always_at_rest(),
-      bounds_of(box_of(drive, *final_servo(drive)), std::numeric_limits<double>::quiet_NaN()));
+      bounds_of(box_of(drive, *settled_servo(drive)), std::numeric_limits<double>::quiet_NaN()));
   // Growth at rest has nothing to do with the backlash: the whole range is as the present value is.
   if (at_present == Judgement::some) {
     ASSERT_EQ(values.undecided.size(), 1U);

@@ -139,7 +139,7 @@ TEST_F(WebCore, ParametersHaveValueUnitAndSlider) {
     EXPECT_GT(parameter["slider"]["high"], parameter["value"]);
   }
   EXPECT_TRUE(is_found);
-  EXPECT_FALSE(reply["has_closed_form"].get<bool>());
+  EXPECT_TRUE(reply["is_searched"].get<bool>());
 }
 
 TEST_F(WebCore, CurvesAreColumnsOfOneLength) {

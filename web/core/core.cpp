@@ -16,7 +16,6 @@
 #include "picture/attractor_picture.hpp"
 #include "picture_reply.hpp"
 #include "question/analyse.hpp"
-#include "question/final_servo.hpp"
 #include "thesis/figures.hpp"
 
 namespace gearlash::web {

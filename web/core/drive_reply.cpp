@@ -10,7 +10,7 @@
 #include "gearlash/parameter.hpp"
 #include "model/parameters.hpp"
 #include "output/drive_text.hpp"
-#include "question/final_servo.hpp"
+#include "question/family/family.hpp"
 
 namespace gearlash::web {
 namespace {
@@ -139,7 +139,7 @@ Json drive_reply(const DriveText& text, const WrittenDrive& written) {
   return {{"parameters", ParameterList(text, written).all()},
           {"absent", absent_sections(written.drive)},
           {"is_normal_form", written.drive.servo.has_value()},
-          {"has_closed_form", closed_form_drive(written.drive).has_value()}};
+          {"is_searched", engines_of(written.drive).search}};
 }
 
 Json file_reply(const WrittenDrive& written) {

@@ -225,5 +225,5 @@ export function missingInputs(faults: Fault[], changed: Changed): HTMLElement {
 
 /** A reply with one parameter alone, for the story. */
 export const only = (parameter: Parameter): DriveReply => ({
-  parameters: [{ ...parameter, is_usual: true }], absent: [], is_normal_form: true, has_closed_form: true,
+  parameters: [{ ...parameter, is_usual: true }], absent: [], is_normal_form: true, is_searched: false,
 });

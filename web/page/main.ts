@@ -273,7 +273,7 @@ class Explorer {
       this.refuse(error);
       return;
     }
-    const isQuick = this.facts!.has_closed_form;
+    const isQuick = !this.facts!.is_searched;
     const isInStory = this.state.view === 'story';
     const shows = (card: string): boolean => !isInStory || this.story.steps[this.state.step - 1]!.cards.includes(card);
     if (shows('map')) await this.studies.drawMap();

@@ -41,7 +41,7 @@ export interface DriveReply {
   parameters: Parameter[];
   absent: { name: string; contents: string }[];
   is_normal_form: boolean;
-  has_closed_form: boolean;
+  is_searched: boolean;
 }
 
 /** One motion: columns of all its points, and its pieces between events. */

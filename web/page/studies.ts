@@ -54,7 +54,7 @@ export function listAxes(facts: DriveReply, chosen: { x: string; y: string }): {
   let { x, y } = chosen;
   if (!paths.includes(x)) {
     x = usual.find((path) => path === 'servo.inertia_ratio') ?? usual.find((path) => path.endsWith('backlash')) ?? usual[0] ?? paths[0] ?? '';
-    y = facts.has_closed_form ? (usual.find((path) => path === 'servo.damping') ?? usual.find((path) => path !== x) ?? '') : '';
+    y = facts.is_searched ? '' : (usual.find((path) => path === 'servo.damping') ?? usual.find((path) => path !== x) ?? '');
   }
   if (!paths.includes(y)) y = '';
   listPaths(byId('map-x') as HTMLSelectElement, paths, x);
@@ -103,7 +103,7 @@ export class Studies {
   }
 
   private request(): { ask: 'map' | 'chart'; x: string; y?: string } {
-    const engine = this.page.facts().has_closed_form ? 'closed' : 'searched';
+    const engine = this.page.facts().is_searched ? 'searched' : 'closed';
     const { x, y } = this.page.axes();
     if (y && y !== x) return { ask: 'map', x: this.axisText(x, pointsOf.map[engine]), y: this.axisText(y, pointsOf.map[engine]) };
     return { ask: 'chart', x: this.axisText(x, pointsOf.chart[engine]) };
@@ -202,7 +202,7 @@ export class Studies {
     const paths = (wanted: (one: Parameter) => boolean): string[] => facts.parameters.filter(wanted).map((one) => one.path);
     const isAbove0 = (one: Parameter): boolean => one.kind === 'number' && typeof one.value === 'number' && one.value > 0;
     if (facts.is_normal_form) return [{ parameters: paths((one) => isAbove0(one) && one.path !== 'servo.natural_frequency') }];
-    if (facts.has_closed_form) return [{}];
+    if (!facts.is_searched) return [{}];
     return paths((one) => (isAbove0(one) && one.is_usual) || one.path === 'sensor.position').map((path) => ({ parameters: [path] }));
   }
 

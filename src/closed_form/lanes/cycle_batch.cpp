@@ -33,7 +33,7 @@ void require_rows(const CycleColumns& cycles, std::size_t rows) {
                                 ", as many as there are servos, or none");
   };
   require(Quantity::verdict, cycles.verdict.size());
-  for (const Quantity quantity : closed_form_quantities) require(quantity, cycles[quantity].size());
+  for (const Quantity quantity : solved_quantities) require(quantity, cycles[quantity].size());
 }
 
 /// Repeats the last servo in the lanes left over.
@@ -127,7 +127,7 @@ void solve_alone(const NormalizedServo& servo, const CycleColumns& cycles, std::
 }
 
 bool for_kernel(const NormalizedServo& servo) {
-  return servo.restitution == 0.0 && servo.sensor == ShaftName::load;
+  return servo.restitution == 0.0;
 }
 
 }  // namespace

@@ -19,109 +19,83 @@ namespace {
 /// The longest run of values of a grid of which only the ends are certain to be analysed afresh.
 constexpr std::size_t longest_missing_run = 8;
 
-/// The drives along a line, judged by a target.
-class JudgedLine {
- public:
-  using Known = AnalysedLine::Known;
-
-  /// Of a grid of `count` values. The ends of intervals take about as many.
-  JudgedLine(const DriveAlong& drive, std::size_t count, const Target& target, const Wanted& wanted,
-             Progress& progress)
-      : line_(drive, wanted, 2 * count, progress), target_(target) {}
-
-  std::size_t evaluations() const { return line_.evaluations(); }
-  bool is_stopped() const { return line_.is_stopped(); }
-
-  JudgedValue afresh(double value) { return judged(value, line_.afresh(value)); }
-  /// From the nearest value that was line.
-  JudgedValue followed(double value) {
-    return judged(value, line_.followed(value, line_.nearest(value)));
-  }
-
-  /// Analyses the ends afresh. Where both miss the target, the values between are followed from one
-  /// to the next, and analysed afresh if they then meet it; else the middle is analysed afresh too,
-  /// and so on.
-  std::vector<JudgedValue> on_grid(const std::vector<double>& grid) {
-    std::vector<JudgedValue> all(grid.size());
-    std::vector<Known> analyses(grid.size());
-    std::vector<std::size_t> next = {0};
-    if (grid.size() > 1) next.push_back(grid.size() - 1);
-    std::vector<Run> open = {{0, grid.size() - 1}};
-    std::vector<Run> missing;
-    while (!next.empty()) {
-      on_threads(0, next.size(), [&](std::size_t i) {
-        const std::size_t place = next[i];
-        analyses[place] = line_.afresh(grid[place]);
-        all[place] = judged(grid[place], analyses[place]);
-      });
-      next.clear();
-      std::vector<Run> halves;
-      for (const auto& [low, high] : open) {
-        if (high - low < 2) continue;
-        const bool both_miss = misses(all[low]) && misses(all[high]);
-        if (both_miss && high - low <= longest_missing_run) {
-          missing.push_back({low, high});
-          continue;
-        }
-        const std::size_t middle = low + (high - low) / 2;
-        next.push_back(middle);
-        halves.push_back({low, middle});
-        halves.push_back({middle, high});
-      }
-      open = std::move(halves);
-    }
-    on_threads(0, missing.size(), [&](std::size_t i) {
-      const auto [low, high] = missing[i];
-      Known near = analyses[low];
-      for (std::size_t place = low + 1; place < high; ++place) {
-        const Known here = line_.followed(grid[place], near);
-        all[place] = judged(grid[place], here);
-        const bool is_followed = here && here->is_followed;
-        if (is_followed && !misses(all[place])) all[place] = afresh(grid[place]);
-        if (here) near = here;
-      }
-    });
-    return all;
-  }
-
-  /// What happens between the end of an interval, upwards or downwards, and the values beyond that
-  /// were analysed, as far as `far`, from the nearest on: next to a fold motion lingers, and the
-  /// nearest may not have closed the cycle. Empty if there is none, or it meets the target.
-  std::optional<Border> border_at(double end, bool upwards, double far) {
-    std::optional<Border> first;
-    const std::map<double, Known>& known = line_.known();
-    const auto at_end = known.find(end);
-    if (at_end == known.end()) return first;
-    auto beyond = at_end;
-    while (upwards ? std::next(beyond) != known.end() : beyond != known.begin()) {
-      beyond = upwards ? std::next(beyond) : std::prev(beyond);
-      const bool is_near = upwards ? beyond->first <= far : beyond->first >= far;
-      if (!is_near || !misses(judged(beyond->first, beyond->second))) break;
-      const Border border = border_between(line_.drive(), {end, *at_end->second},
-                                           {beyond->first, *beyond->second}, far, line_.progress());
-      if (!first) first = border;
-      if (border.kind == BorderKind::unnamed || border.kind == BorderKind::rest) continue;
-      return border;
-    }
-    return first;
-  }
-
- private:
-  struct Run {
-    std::size_t low;
-    std::size_t high;
-  };
-
-  static bool misses(const JudgedValue& one) { return one.is_known && !one.is_met; }
-
-  JudgedValue judged(double value, const Known& analysis) const {
-    if (analysis) return gearlash::judged(value, target_, analysis->answer);
-    return faults(line_.drive()(value)).empty() ? judged_unknown(value) : judged_unsound(value);
-  }
-
-  AnalysedLine line_;
-  const Target& target_;
+/// Part of a grid, by its first and its last place.
+struct GridRun {
+  std::size_t low;
+  std::size_t high;
 };
+
+bool misses(const JudgedValue& one) { return one.is_known && !one.is_met; }
+
+/// Analyses the ends afresh. Where both miss the target, the values between are followed from one
+/// to the next, and analysed afresh if they then meet it; else the middle is analysed afresh too,
+/// and so on.
+std::vector<JudgedValue> on_grid(JudgedLine& judged, const std::vector<double>& grid) {
+  AnalysedLine& line = judged.line();
+  std::vector<JudgedValue> all(grid.size());
+  std::vector<AnalysedLine::Known> analyses(grid.size());
+  std::vector<std::size_t> next = {0};
+  if (grid.size() > 1) next.push_back(grid.size() - 1);
+  std::vector<GridRun> open = {{0, grid.size() - 1}};
+  std::vector<GridRun> missing;
+  while (!next.empty()) {
+    on_threads(0, next.size(), [&](std::size_t i) {
+      const std::size_t place = next[i];
+      analyses[place] = line.afresh(grid[place]);
+      all[place] = judged.judged(grid[place], analyses[place]);
+    });
+    next.clear();
+    std::vector<GridRun> halves;
+    for (const auto& [low, high] : open) {
+      if (high - low < 2) continue;
+      const bool both_miss = misses(all[low]) && misses(all[high]);
+      if (both_miss && high - low <= longest_missing_run) {
+        missing.push_back({low, high});
+        continue;
+      }
+      const std::size_t middle = low + (high - low) / 2;
+      next.push_back(middle);
+      halves.push_back({low, middle});
+      halves.push_back({middle, high});
+    }
+    open = std::move(halves);
+  }
+  on_threads(0, missing.size(), [&](std::size_t i) {
+    const auto [low, high] = missing[i];
+    AnalysedLine::Known near = analyses[low];
+    for (std::size_t place = low + 1; place < high; ++place) {
+      const AnalysedLine::Known here = line.followed(grid[place], near);
+      all[place] = judged.judged(grid[place], here);
+      const bool is_followed = here && here->is_followed;
+      if (is_followed && !misses(all[place])) all[place] = judged.afresh(grid[place]);
+      if (here) near = here;
+    }
+  });
+  return all;
+}
+
+/// What happens between the end of an interval, upwards or downwards, and the values beyond that
+/// were analysed, as far as `far`, from the nearest on: next to a fold motion lingers, and the
+/// nearest may not have closed the cycle. Empty if there is none, or it meets the target.
+std::optional<Border> border_at(JudgedLine& judged, double end, bool upwards, double far) {
+  AnalysedLine& line = judged.line();
+  std::optional<Border> first;
+  const std::map<double, AnalysedLine::Known>& known = line.known();
+  const auto at_end = known.find(end);
+  if (at_end == known.end()) return first;
+  auto beyond = at_end;
+  while (upwards ? std::next(beyond) != known.end() : beyond != known.begin()) {
+    beyond = upwards ? std::next(beyond) : std::prev(beyond);
+    const bool is_near = upwards ? beyond->first <= far : beyond->first >= far;
+    if (!is_near || !misses(judged.judged(beyond->first, beyond->second))) break;
+    const Border border = border_between(line.drive(), {end, *at_end->second},
+                                         {beyond->first, *beyond->second}, far, line.progress());
+    if (!first) first = border;
+    if (border.kind == BorderKind::unnamed || border.kind == BorderKind::rest) continue;
+    return border;
+  }
+  return first;
+}
 
 /// More is not worth a second or two for each value that is tried.
 Resolution resolution_over(const Bounds& range) {
@@ -161,7 +135,7 @@ std::vector<IntervalEnd> ends_with_borders(JudgedLine& line, const FeasibleValue
     const double value = end.is_upper ? interval.high : interval.low;
     const double far = end.is_upper ? *std::upper_bound(grid.begin(), grid.end(), value)
                                     : *std::prev(std::lower_bound(grid.begin(), grid.end(), value));
-    end.border = line.border_at(value, end.is_upper, far);
+    end.border = border_at(line, value, end.is_upper, far);
   });
   return ends;
 }
@@ -169,7 +143,7 @@ std::vector<IntervalEnd> ends_with_borders(JudgedLine& line, const FeasibleValue
 /// Names the ends of intervals. A cycle that misses the target may go on into an interval, where no
 /// start led to it: the interval begins where it ends. Of one that it fills nothing is known.
 void name_borders(JudgedLine& line, FeasibleValues& found) {
-  if (line.is_stopped()) return;
+  if (line.line().is_stopped()) return;
   std::vector<IntervalEnd> ends = ends_with_borders(line, found);
   std::vector<bool> is_filled(found.intervals.size(), false);
   for (IntervalEnd& end : ends) {
@@ -219,8 +193,9 @@ std::vector<JudgedValue> judged_numbers(JudgedLine& line, FeasibleValues& found)
   const auto afresh = [&](double value) { return line.afresh(value); };
   const auto followed = [&](double value) { return line.followed(value); };
   constexpr int most_halvings = 2;
-  std::vector<JudgedValue> tried = tried_between(
-      line.on_grid(found.grid), afresh, {.most_halvings = most_halvings, .halvings_everywhere = 0});
+  std::vector<JudgedValue> tried =
+      tried_between(on_grid(line, found.grid), afresh,
+                    {.most_halvings = most_halvings, .halvings_everywhere = 0});
   found.located = resolution.at_jump;
   if (tried.size() == 1 && tried[0].is_met) found.intervals = {found.searched};
   const auto is_met_at = [&](double value) {
@@ -248,11 +223,12 @@ template <class Search>
 void fill(FeasibleValues& found, const DriveAlong& drive, const Target& target,
           const Wanted& wanted, Progress& progress, const Search& search) {
   found.kind = SearchKind::searched;
-  JudgedLine line(drive, found.grid.size(), target, wanted, progress);
+  // The ends of intervals take about as many analyses as the grid.
+  JudgedLine line(drive, wanted, 2 * found.grid.size(), target, progress);
   const std::vector<JudgedValue> tried = search(line, found);
   if (found.intervals.empty()) found.closest = closest_of(tried);
-  found.evaluations = line.evaluations();
-  found.stopped = line.is_stopped();
+  found.evaluations = line.line().evaluations();
+  found.stopped = line.line().is_stopped();
 }
 
 }  // namespace

@@ -4,23 +4,25 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/progress_part.hpp"
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
 #include "closed_form/closed_answer.hpp"
 #include "gearlash/design.hpp"
 #include "gearlash/parameter.hpp"
-#include "model/closed_form_number.hpp"
+#include "model/proportional_servo.hpp"
 #include "question/axis.hpp"
-#include "question/change/closed_form_line.hpp"
+#include "question/change/margins.hpp"
 #include "question/change/orbit_derivatives.hpp"
-#include "question/final_servo.hpp"
+#include "question/change/servo_line.hpp"
+#include "question/family/family.hpp"
 
 namespace gearlash {
 namespace {
 
 /// A servo with a closed form, and its limit cycle seen in practice.
 struct PresentServo {
-  explicit PresentServo(const FinalServo& of) : servo(of.closed_form.servo) {
+  explicit PresentServo(const ProportionalServo& of) : servo(of.servo) {
     if (servo.damping == 0.0) {
       reason = "not computed without damping";
       return;
@@ -35,11 +37,10 @@ struct PresentServo {
     }
   }
 
-  Answer answer_beside(const FinalServo& of) const {
+  Answer answer_beside(const ProportionalServo& of) const {
     if (servo.damping == 0.0) return {};
     const LimitCycle* near = cycle ? &*cycle : nullptr;
-    return answer_of(analyse_beside(of.closed_form.servo, near, servo), of.closed_form,
-                     of.stiffness);
+    return answer_of(analyse_beside(of.servo, near, servo), of);
   }
 
   NormalizedServo servo;
@@ -48,11 +49,11 @@ struct PresentServo {
 };
 
 /// The change of a number that makes the drivetrain another one.
-double unit_on(const ClosedFormLine& line) {
+double unit_on(const ServoLine& line) {
   const double present = line.present();
   if (present != 0.0) return std::abs(present);
-  const std::optional<FinalServo> here = line.at(0.0);
-  const std::optional<FinalServo> there = line.at(1.0);
+  const std::optional<ProportionalServo> here = line.at(0.0);
+  const std::optional<ProportionalServo> there = line.at(1.0);
   if (!here || !there) return 1.0;
   const Drivetrain& from = here->drivetrain;
   const Drivetrain& to = there->drivetrain;
@@ -74,16 +75,16 @@ bool is_plastic_restitution(const std::string& path, double present) {
 /// With respect to numbers of a drive with a closed form.
 Jacobian jacobian_of(const Drive& drive, std::span<const Quantity> quantities,
                      const std::vector<std::string>& names) {
-  const Drive closed = *closed_form_drive(drive);
-  const FinalServo servo = servo_without_checks(closed);
+  const Drive closed = without_ended_signals(drive);
+  const ProportionalServo servo = servo_without_checks(closed);
   const PresentServo present(servo);
   const Answer known = present.answer_beside(servo);
   Jacobian jacobian{.reason = present.reason};
-  std::vector<ClosedFormLine> lines;
+  std::vector<ServoLine> lines;
   RangeCheck check;
   for (const std::string& name : names) {
     const std::string path = path_named(name, closed);
-    if (auto line = ClosedFormLine::along(closed, path)) {
+    if (auto line = ServoLine::along(closed, path)) {
       jacobian.paths.push_back(path);
       jacobian.present.push_back(line->present());
       lines.push_back(*std::move(line));
@@ -99,7 +100,7 @@ Jacobian jacobian_of(const Drive& drive, std::span<const Quantity> quantities,
     const auto answer_at = [&](double value) -> Answer {
       if (is_plastic_restitution(jacobian.paths[j], jacobian.present[j])) return Answer(known);
       if (lines[j].is_backlash() && lines[j].present() > 0.0) return with_backlash(known, value);
-      const std::optional<FinalServo> beside = lines[j].at(value);
+      const std::optional<ProportionalServo> beside = lines[j].at(value);
       return beside ? present.answer_beside(*beside) : Answer{};
     };
     set_slopes(jacobian, j, answer_at, {.unit = unit_on(lines[j])});
@@ -138,14 +139,21 @@ Jacobian drive_sensitivity(const Drive& drive, const std::vector<std::string>& n
 
 Jacobian drive_sensitivity(const Drive& drive) {
   if (drive.servo) return drive_sensitivity(drive, usual_parameters(drive));
-  const Drive closed = *closed_form_drive(drive);
+  const Drive closed = without_ended_signals(drive);
   std::vector<std::string> names;
   for (const Parameter& parameter : all_parameters_of_drives()) {
     const bool is_its_own = find_parameter(parameter.path, closed) == &parameter;
-    if (is_its_own && enters_closed_form(closed, parameter.path))
-      names.emplace_back(parameter.path);
+    if (is_its_own && enters_servo(closed, parameter.path)) names.emplace_back(parameter.path);
   }
   return drive_sensitivity(drive, names);
+}
+
+Jacobian sensitivities(const Drive& drive, const Analysis& analysis, Progress& progress) {
+  if (!analysis.servo) {
+    return orbit_derivatives(drive, analysis, differentiable_by_search, numbers_of_orbits(drive),
+                             progress);
+  }
+  return has_margins(analysis) ? drive_sensitivity(drive) : Jacobian{};
 }
 
 std::optional<double> Jacobian::slope(std::size_t quantity, std::size_t parameter) const {
@@ -176,8 +184,11 @@ Jacobian derivatives(const Drive& drive, std::span<const Quantity> quantities,
   require_none(check.faults());
   const std::vector<std::string> names(paths.begin(), paths.end());
   require_none(faults(drive));
-  if (!closed_form_drive(drive)) return orbit_derivatives(drive, quantities, names, progress);
-  return jacobian_of(drive, quantities, names);
+  if (!engines_of(drive).search) return jacobian_of(drive, quantities, names);
+  presents_of(drive, names);  // before the search
+  ProgressPart search(progress, 0.0, 0.5);
+  ProgressPart rest(progress, 0.5, 1.0);
+  return orbit_derivatives(drive, analyse_in_full(drive, {}, search), quantities, names, rest);
 }
 
 Jacobian derivatives(const Drive& drive, std::initializer_list<Quantity> quantities,

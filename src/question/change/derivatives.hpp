@@ -9,6 +9,7 @@
 #include "gearlash/answer.hpp"
 #include "gearlash/sensitivity.hpp"
 #include "numeric/differences.hpp"
+#include "question/analyse.hpp"
 
 namespace gearlash {
 
@@ -33,5 +34,10 @@ Jacobian drive_sensitivity(const Drive& drive, const std::vector<std::string>& n
 /// Derivatives with respect to every parameter that enters the closed form; for a normal form, with
 /// respect to usual_parameters(). Precondition: a closed form.
 Jacobian drive_sensitivity(const Drive& drive);
+
+/// The same of any drive whose analysis is known: of a searched one by orbit_derivatives(). Empty
+/// at the very ends of a normal form's ranges, where rounding puts its drivetrain outside them.
+Jacobian sensitivities(const Drive& drive, const Analysis& analysis,
+                       Progress& progress = no_progress());
 
 }  // namespace gearlash

@@ -4,10 +4,8 @@
 #include <utility>
 
 #include "base/progress_part.hpp"
-#include "closed_form/closed_answer.hpp"
 #include "question/analyse.hpp"
 #include "question/axis.hpp"
-#include "question/final_servo.hpp"
 
 namespace gearlash {
 namespace {
@@ -29,11 +27,10 @@ Judgement judge_present(const Drive& drive, const Target& target, const Answer& 
   const Judgement at_point = is_met(target, present)     ? Judgement::all
                              : is_known(target, present) ? Judgement::none
                                                          : Judgement::some;
-  const std::optional<FinalServo> servo = final_servo(drive);
-  if (!servo || !servo_dynamics(servo->closed_form.servo).plastic_contact()) return at_point;
+  const std::optional<AnswerBounds> bounds = proved_bounds(drive, present);
+  if (!bounds) return at_point;
   const auto [bounded, others] = parts_of(target, [](Quantity one) { return is_of_boxes(one); });
-  const Judgement proved =
-      judge(bounded, bounds_of(box_of(drive, *servo), flight_time_of(present)));
+  const Judgement proved = judge(bounded, *bounds);
   return is_empty(others) || proved == Judgement::none ? proved : std::min(proved, at_point);
 }
 

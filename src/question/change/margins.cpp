@@ -12,7 +12,6 @@
 #include "question/change/overall_margin.hpp"
 #include "question/change/target.hpp"
 #include "question/family/analysed_line.hpp"
-#include "question/final_servo.hpp"
 
 namespace gearlash {
 namespace {
@@ -74,6 +73,10 @@ std::optional<double> first_border(const FeasibleValues& quiet, bool hunts) {
 }
 
 }  // namespace
+
+bool has_margins(const Analysis& analysis) {
+  return !analysis.servo || faults(analysis.servo->drivetrain).empty();
+}
 
 ParameterMargin margin_of(const FeasibleValues& quiet) {
   ParameterMargin margin{.parameter = quiet.parameter,
@@ -202,10 +205,7 @@ HuntingMargin margins(const Drive& drive, const std::vector<Axis>& axes, Progres
         parameter_margin(drive, axis, margin.hunts || !margin.is_known, part));
     margin.stopped = margin.parameters.back().stopped;
   }
-  if (const std::optional<FinalServo> servo = final_servo(drive)) {
-    margin.overall = overall_margin(servo->drivetrain);
-    return margin;
-  }
+  if ((margin.overall = overall_margin(drive))) return margin;
   if (margin.stopped || !margin.is_known) return margin;
   ProgressPart last(progress, parts - 1, parts);
   margin.combined = combined_margin(drive, axes, margin.parameters, margin.hunts, last);

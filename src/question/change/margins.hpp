@@ -5,8 +5,13 @@
 #include <vector>
 
 #include "gearlash/design.hpp"
+#include "question/analyse.hpp"
 
 namespace gearlash {
+
+/// False at the very ends of a normal form's ranges, where rounding puts its drivetrain outside
+/// them: margins() then throws.
+bool has_margins(const Analysis& analysis);
 
 /// The nearest ends of intervals, where `quiet` are the values without hunting.
 ParameterMargin margin_of(const FeasibleValues& quiet);

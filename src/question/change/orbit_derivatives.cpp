@@ -5,7 +5,6 @@
 #include <complex>
 #include <limits>
 
-#include "base/progress_part.hpp"
 #include "base/range_check.hpp"
 #include "general/attractors/found_cycle.hpp"
 #include "hybrid/disturbances.hpp"
@@ -79,23 +78,6 @@ const drive::FoundCycle* cycle_in_practice(const Analysis& analysis) {
   return &analysis.search->cycles[static_cast<std::size_t>(cycle - analysis.answer.cycles.data())];
 }
 
-std::vector<double> presents_of(const Drive& drive, const std::vector<std::string>& paths) {
-  RangeCheck check;
-  std::vector<double> presents;
-  for (const std::string& path : paths) {
-    const Parameter* parameter = find_parameter(path, drive);
-    const bool is_number =
-        parameter != nullptr && parameter->choices.empty() && number_in(*parameter, drive);
-    if (is_number) {
-      presents.push_back(*number_in(*parameter, drive));
-    } else {
-      check.refuse("paths", path, "must be a number that this drive has");
-    }
-  }
-  require_none(check.faults());
-  return presents;
-}
-
 /// The cycle of the drive with another value of a number, by Newton's method; none where the drive
 /// is unsound or the cycle has other events.
 Answer answer_beside(Drive drive, const Axis& axis, double value,
@@ -152,22 +134,31 @@ Jacobian orbit_derivatives(const Drive& drive, const Analysis& analysis,
   return jacobian;
 }
 
-Jacobian orbit_derivatives(const Drive& drive, std::span<const Quantity> quantities,
-                           const std::vector<std::string>& paths, Progress& progress) {
-  presents_of(drive, paths);  // before the search
-  ProgressPart search(progress, 0.0, 0.5);
-  ProgressPart rest(progress, 0.5, 1.0);
-  return orbit_derivatives(drive, analyse_in_full(drive, {}, search), quantities, paths, rest);
+std::vector<double> presents_of(const Drive& drive, const std::vector<std::string>& paths) {
+  RangeCheck check;
+  std::vector<double> presents;
+  for (const std::string& path : paths) {
+    const Parameter* parameter = find_parameter(path, drive);
+    const bool is_number =
+        parameter != nullptr && parameter->choices.empty() && number_in(*parameter, drive);
+    if (is_number) {
+      presents.push_back(*number_in(*parameter, drive));
+    } else {
+      check.refuse("paths", path, "must be a number that this drive has");
+    }
+  }
+  require_none(check.faults());
+  return presents;
 }
 
-Jacobian orbit_derivatives(const Drive& drive, const Analysis& analysis, Progress& progress) {
+std::vector<std::string> numbers_of_orbits(const Drive& drive) {
   std::vector<std::string> paths;
   for (const Parameter& parameter : all_parameters_of_drives()) {
     if (!exists(parameter, drive) || !parameter.choices.empty()) continue;
     const std::optional<double> present = number_in(parameter, drive);
     if (present && *present != 0.0) paths.emplace_back(parameter.path);
   }
-  return orbit_derivatives(drive, analysis, differentiable_by_search, paths, progress);
+  return paths;
 }
 
 }  // namespace gearlash

@@ -24,12 +24,9 @@ Jacobian orbit_derivatives(const Drive& drive, const Analysis& analysis,
                            const std::vector<std::string>& paths,
                            Progress& progress = no_progress());
 
-/// The same of all these quantities with respect to every number of the drive that is not 0.
-Jacobian orbit_derivatives(const Drive& drive, const Analysis& analysis,
-                           Progress& progress = no_progress());
-
-/// The same after an analysis of the drive. Throws InvalidInput for an unsound drive too.
-Jacobian orbit_derivatives(const Drive& drive, std::span<const Quantity> quantities,
-                           const std::vector<std::string>& paths, Progress& progress);
+/// What a searched drive has derivatives by: its numbers that are not 0.
+std::vector<std::string> numbers_of_orbits(const Drive& drive);
+/// Throws InvalidInput for a path that is no number of the drive.
+std::vector<double> presents_of(const Drive& drive, const std::vector<std::string>& paths);
 
 }  // namespace gearlash

@@ -8,6 +8,7 @@
 
 #include "base/special_numbers.hpp"
 #include "closed_form/growth_at_rest.hpp"
+#include "model/proportional_servo.hpp"
 #include "numeric/differences.hpp"
 #include "numeric/linear_algebra.hpp"
 
@@ -260,6 +261,11 @@ OverallMargin overall_margin(const Drivetrain& drive) {
   }
   if (margin.outcome != MarginOutcome::found) margin.outcome = MarginOutcome::out_of_reach;
   return margin;
+}
+
+std::optional<OverallMargin> overall_margin(const Drive& drive) {
+  const std::optional<ProportionalServo> servo = settled_servo(drive);
+  return servo ? std::optional(overall_margin(servo->drivetrain)) : std::nullopt;
 }
 
 }  // namespace gearlash

@@ -1,6 +1,8 @@
 // The distance of a drive from the boundary of hunting, by all numbers of its drivetrain together.
 #pragma once
 
+#include <optional>
+
 #include "gearlash/design.hpp"
 #include "model/drivetrain.hpp"
 
@@ -16,5 +18,7 @@ namespace gearlash {
 /// the boundary along 128 directions spread over that space and 10 along the axes. Throws
 /// InvalidInput.
 OverallMargin overall_margin(const Drivetrain& drive);
+/// Of a drive with a settled_servo(); empty for any other. Precondition: the drive is sound.
+std::optional<OverallMargin> overall_margin(const Drive& drive);
 
 }  // namespace gearlash

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <variant>
 
 #include "base/on_threads.hpp"
 #include "question/change/target.hpp"
+#include "question/change/value_scan.hpp"
 #include "question/loop/ceiling/ceiling.hpp"
 #include "question/loop/ceiling/enclosed_ceiling.hpp"
 
@@ -39,20 +41,6 @@ Judged judged(const Drive& drive, std::string_view path, const Bounds& values,
         return bound && *bound <= limit.permitted.high;
       });
   return part;
-}
-
-void join(std::vector<Bounds>& parts) {
-  std::sort(parts.begin(), parts.end(),
-            [](const Bounds& a, const Bounds& b) { return a.low < b.low; });
-  std::vector<Bounds> joined;
-  for (const Bounds& part : parts) {
-    if (!joined.empty() && joined.back().high == part.low) {
-      joined.back().high = part.high;
-    } else {
-      joined.push_back(part);
-    }
-  }
-  parts = std::move(joined);
 }
 
 }  // namespace
@@ -102,7 +90,9 @@ IntervalProof prove_target(const Drive& drive, std::string_view path, const Boun
       }
     }
   }
-  join(proof.parts);
+  std::sort(proof.parts.begin(), proof.parts.end(),
+            [](const Bounds& a, const Bounds& b) { return a.low < b.low; });
+  for (const Bounds& part : std::exchange(proof.parts, {})) add(proof.parts, part);
   if (proof.parts.empty()) proof.reason = "interval bounds of no part of it keep the limit";
   return proof;
 }

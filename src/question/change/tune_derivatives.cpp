@@ -13,7 +13,7 @@
 #include "question/change/derivatives.hpp"
 #include "question/change/orbit_derivatives.hpp"
 #include "question/change/target.hpp"
-#include "question/final_servo.hpp"
+#include "question/family/family.hpp"
 #include "question/loop/linear_loop.hpp"
 
 namespace gearlash {
@@ -138,9 +138,9 @@ class UnitSlopes {
 
   std::optional<Jacobian> jacobian_of(const std::vector<Quantity>& quantities, bool asks_for_rest,
                                       Progress& progress) const {
-    if (const auto servo = final_servo(unit_)) {
-      const bool bounces = servo->closed_form.servo.restitution > 0.0;
-      if (bounces && !task_.target.limits.empty()) return std::nullopt;
+    const EnginesNeeded engines = engines_of(unit_);
+    if (!engines.search) {
+      if (engines.bounces && !task_.target.limits.empty()) return std::nullopt;
       const std::vector<std::string_view> paths(paths_.begin(), paths_.end());
       return derivatives(unit_, quantities, paths);
     }
@@ -167,7 +167,7 @@ bool may_have_slopes(const TuneTask& task) {
   const std::vector<QuantityLimit>& limits = task.target.limits;
   const bool asks_for_rest = task.target.no_hunting || task.target.no_hunting_if_disturbed;
   return task.aim == Aim::bandwidth &&
-         (!asks_for_rest || final_servo(task.series.nominal).has_value()) &&
+         (!asks_for_rest || !engines_of(task.series.nominal).search) &&
          !task.series.nominal.sampling &&
          std::all_of(limits.begin(), limits.end(), [](const QuantityLimit& limit) {
            return is_of_loop(limit.quantity) || is_of_cycle(limit.quantity);

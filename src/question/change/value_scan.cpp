@@ -42,42 +42,31 @@ std::vector<double> middles_to_try(const std::vector<JudgedValue>& tried, bool e
   return middles;
 }
 
-void add(std::vector<Bounds>& intervals, double low, double high) {
-  if (!intervals.empty() && intervals.back().high >= low) {
-    intervals.back().high = high;
-  } else {
-    intervals.push_back({low, high});
-  }
-}
-
 }  // namespace
 
-JudgedValue judged(double value, const Target& target, const Answer& answer) {
+JudgedValue JudgedLine::judged(double value, const AnalysedLine::Known& analysis) const {
+  if (!analysis) {
+    const bool is_unsound = !faults(line_.drive()(value)).empty();
+    return {.value = value,
+            .is_known = is_unsound,
+            .beyond = Target::infinity,
+            .beyond_limits = is_unsound ? Target::infinity : 0.0};
+  }
+  const Answer& answer = analysis->answer;
   return {.value = value,
-          .is_met = is_met(target, answer),
-          .is_known = is_known(target, answer),
+          .is_met = is_met(target_, answer),
+          .is_known = is_known(target_, answer),
           .moves = !is_at_rest(answer.verdict),
-          .beyond = excess(target, answer),
-          .beyond_limits = excess({.limits = target.limits}, answer)};
+          .beyond = excess(target_, answer),
+          .beyond_limits = excess({.limits = target_.limits}, answer)};
 }
 
-JudgedValue judged_unsound(double value) {
-  return {.value = value, .beyond = Target::infinity, .beyond_limits = Target::infinity};
-}
-
-JudgedValue judged_unknown(double value) {
-  return {.value = value, .is_known = false, .beyond = Target::infinity};
-}
-
-AnswerJudge::AnswerJudge(AnswerAt answer_at, const Target& target, std::size_t usual,
-                         Progress& progress)
-    : answer_at_(std::move(answer_at)), target_(target), usual_(usual), shared_(progress, usual) {}
-
-JudgedValue AnswerJudge::operator()(double value) {
-  if (!shared_.finish(evaluations_ < usual_ ? 1 : 0)) return judged_unknown(value);
-  ++evaluations_;
-  const std::optional<Answer> answer = answer_at_(value);
-  return answer ? judged(value, target_, *answer) : judged_unsound(value);
+void add(std::vector<Bounds>& intervals, const Bounds& more) {
+  if (!intervals.empty() && intervals.back().high >= more.low) {
+    intervals.back().high = more.high;
+  } else {
+    intervals.push_back(more);
+  }
 }
 
 double middle_value(double low, double high) {
@@ -185,23 +174,22 @@ void put_together(const std::vector<Part>& parts, const std::function<bool(doubl
     const Part& part = parts[i];
     const Bounds& values = part.values;
     if (part.is_unknown) {
-      add(found.undecided, values.low, values.high);
+      add(found.undecided, values);
       continue;
     }
-    if (part.judgement == Judgement::all) add(found.intervals, values.low, values.high);
+    if (part.judgement == Judgement::all) add(found.intervals, values);
     if (part.judgement != Judgement::some) continue;
     // The ends of a sliver belong to its neighbors, which are decided.
     const auto& [low_met, high_met, last] = ends[i];
     if (low_met == high_met) {
-      if (values.low > 0.0)
-        add(found.undecided, values.low, values.high);  // else it ends the range
-      if (low_met) add(found.intervals, values.low, values.high);
+      if (values.low > 0.0) add(found.undecided, values);  // else it ends the range
+      if (low_met) add(found.intervals, values);
     } else if (low_met) {
-      add(found.intervals, values.low, last.value);
-      if (last.met_unknown) add(found.undecided, last.value, values.high);
+      add(found.intervals, {values.low, last.value});
+      if (last.met_unknown) add(found.undecided, {last.value, values.high});
     } else {
-      if (last.met_unknown) add(found.undecided, values.low, last.value);
-      add(found.intervals, last.value, values.high);
+      if (last.met_unknown) add(found.undecided, {values.low, last.value});
+      add(found.intervals, {last.value, values.high});
     }
   }
 }

@@ -1,14 +1,12 @@
 // Tries values of one parameter, denser near a limit, and closes in on where a target ends.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <functional>
-#include <optional>
 #include <vector>
 
-#include "base/shared_progress.hpp"
 #include "question/change/target.hpp"
+#include "question/family/analysed_line.hpp"
 
 namespace gearlash {
 
@@ -21,36 +19,34 @@ struct JudgedValue {
   double beyond = 0.0;         ///< excess()
   double beyond_limits = 0.0;  ///< excess() of the limits alone
 };
-JudgedValue judged(double value, const Target& target, const Answer& answer);
-/// Of a drive that is unsound.
-JudgedValue judged_unsound(double value);
-/// Where the work was stopped.
-JudgedValue judged_unknown(double value);
 
 /// Judges a value; from several threads at a time if values are tried side by side.
 using Judge = std::function<JudgedValue(double value)>;
 
-/// Judges drives by their answers, from several threads at a time.
-class AnswerJudge {
+/// The drives along a line, judged by a target; from several threads at a time.
+class JudgedLine {
  public:
-  /// Empty for an unsound drive.
-  using AnswerAt = std::function<std::optional<Answer>(double value)>;
+  /// `analyse`: the answers' source, AnalysedLine::Analyse or what must be known for a search. The
+  /// target must outlive it.
+  template <class Source>
+  JudgedLine(const DriveAlong& drive, const Source& analyse, std::size_t usual,
+             const Target& target, Progress& progress)
+      : line_(drive, analyse, usual, progress), target_(target) {}
 
-  /// `usual`: the number of answers that are expected, for the progress alone. The target must
-  /// outlive it.
-  AnswerJudge(AnswerAt answer_at, const Target& target, std::size_t usual, Progress& progress);
+  JudgedValue afresh(double value) { return judged(value, line_.afresh(value)); }
+  /// From the nearest value that is known.
+  JudgedValue followed(double value) {
+    return judged(value, line_.followed(value, line_.nearest(value)));
+  }
+  /// Without an analysis the drive is unsound, or the work was stopped.
+  JudgedValue judged(double value, const AnalysedLine::Known& analysis) const;
 
-  JudgedValue operator()(double value);
-  std::size_t evaluations() const { return evaluations_; }
-  bool is_stopped() const { return shared_.is_stopped(); }
-  SharedProgress& progress() { return shared_; }
+  AnalysedLine& line() { return line_; }
+  const AnalysedLine& line() const { return line_; }
 
  private:
-  AnswerAt answer_at_;
+  AnalysedLine line_;
   const Target& target_;
-  std::size_t usual_;
-  std::atomic<std::size_t> evaluations_ = 0;
-  SharedProgress shared_;
 };
 
 /// A part of the range and its judgement.
@@ -100,6 +96,9 @@ struct LastMet {
   bool met_unknown = false;  ///< what the drive does is not known somewhere between the two
 };
 LastMet last_met(const Judge& judge, double met, double unmet, const Resolution& resolution);
+
+/// Adds an interval to others that end before it, or touch it.
+void add(std::vector<Bounds>& intervals, const Bounds& more);
 
 /// The middle of an interval whose ends are not negative, by ratio if it is wide.
 double middle_value(double low, double high);

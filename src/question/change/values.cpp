@@ -2,24 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "base/on_threads.hpp"
 #include "base/progress_part.hpp"
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
-#include "closed_form/closed_answer.hpp"
-#include "closed_form/growth_at_rest.hpp"
 #include "gearlash/parameter.hpp"
 #include "model/parameter_values.hpp"
 #include "question/analyse.hpp"
 #include "question/axis.hpp"
 #include "question/change/analysed_values.hpp"
-#include "question/change/closed_form_line.hpp"
 #include "question/change/proved_values.hpp"
+#include "question/change/servo_line.hpp"
 #include "question/change/value_scan.hpp"
+#include "question/family/family.hpp"
 
 namespace gearlash {
 namespace {
@@ -41,21 +42,32 @@ std::vector<double> spread_over(const Bounds& range, std::size_t count, bool eve
   return values;
 }
 
+/// Answers that need no search, each asking whether to go on; empty for an unsound drive.
+AnalysedLine::Analyse answered_by(std::function<std::optional<Answer>(double value)> answer_at) {
+  return [answer_at = std::move(answer_at)](double value, const Analysis*,
+                                            Progress& progress) -> AnalysedLine::Known {
+    std::optional<Answer> answer = progress.go_on(0.0) ? answer_at(value) : std::nullopt;
+    if (!answer) return nullptr;
+    return std::make_shared<const Analysis>(Analysis{.answer = *std::move(answer)});
+  };
+}
+
 /// The search along a line in closed form.
-class ClosedFormSearch {
+class ServoSearch {
  public:
-  ClosedFormSearch(const ClosedFormLine& line, const Target& target, Progress& progress)
+  ServoSearch(const ServoLine& line, const Target& target, Progress& progress)
       : line_(line),
         target_(target),
-        judge_([this](double value) { return answer_at(value); }, target, usual_evaluations,
-               progress) {
+        judged_([&line](double value) { return line.drive_at(value); },
+                answered_by([this](double value) { return answer_at(value); }), usual_evaluations,
+                target, progress) {
     if (line.is_backlash() && line.has_bounces() && line.present() > 0.0) {
       at_present_ = line.answer_at(line.present());
     }
   }
 
-  std::size_t evaluations() const { return judge_.evaluations() + boxes_; }
-  bool is_stopped() const { return judge_.is_stopped(); }
+  std::size_t evaluations() const { return judged_.line().evaluations() + boxes_; }
+  bool is_stopped() const { return judged_.line().is_stopped(); }
 
   bool is_met_at(double value) { return judged(value).is_met; }
 
@@ -78,7 +90,7 @@ class ClosedFormSearch {
       }
       open = std::move(halves);
       constexpr std::size_t most_open = 20'000;
-      if (open.size() <= most_open && judge_.progress().go_on(0.0)) continue;
+      if (open.size() <= most_open && judged_.line().progress().go_on(0.0)) continue;
       for (const Bounds& values : open) proved.push_back({values, Judgement::some});
       break;
     }
@@ -109,14 +121,12 @@ class ClosedFormSearch {
   }
 
  private:
-  /// Undecided where there is no valid drive: next to a shaft without friction, a small friction on
-  /// the other shaft is less than a servo may have.
   Answer answer_at(double value) const {
     return at_present_ ? with_backlash(*at_present_, value) : line_.answer_at(value, target_);
   }
 
   JudgedValue judged(double value) {
-    JudgedValue here = judge_(value);
+    JudgedValue here = judged_.afresh(value);
     here.is_known = here.is_known || (!line_.has_bounces() && !is_stopped());
     return here;
   }
@@ -138,7 +148,7 @@ class ClosedFormSearch {
     const std::vector<double> looked_at = spread_over(range, fine, evenly);
     std::vector<double> growths(looked_at.size());
     on_threads(0, looked_at.size(), [&](std::size_t i) {
-      if (judge_.progress().go_on(0.0)) growths[i] = line_.growth_at(looked_at[i]);
+      if (judged_.line().progress().go_on(0.0)) growths[i] = line_.growth_at(looked_at[i]);
     });
     const auto differ = [&](double a, double b) {
       return (a > 1.0) != (b > 1.0) || is_ruled_out(target_, a) != is_ruled_out(target_, b);
@@ -173,16 +183,7 @@ class ClosedFormSearch {
 
   Judgement judge_part(const Bounds& values) {
     ++boxes_;
-    return judge(target_, bounds_of(line_.box(values), guessed_flight_time(values)));
-  }
-
-  /// The flight time at the middle, else at an end.
-  double guessed_flight_time(const Bounds& values) {
-    for (const double value : {middle_value(values.low, values.high), values.low, values.high}) {
-      const double time = flight_time_of(answer_at(value));
-      if (!std::isnan(time)) return time;
-    }
-    return std::numeric_limits<double>::quiet_NaN();
+    return judge(target_, line_.bounds(values));
   }
 
   static bool is_sliver(const Bounds& values, double top) {
@@ -194,11 +195,11 @@ class ClosedFormSearch {
   static constexpr std::size_t fine = 1024;
   static constexpr std::size_t usual_evaluations = 500;  ///< for the progress alone
 
-  const ClosedFormLine& line_;
+  const ServoLine& line_;
   const Target& target_;
   std::optional<Answer> at_present_;  ///< for backlash: amplitudes are proportional to it
   std::vector<JudgedValue> tried_;
-  AnswerJudge judge_;
+  JudgedLine judged_;
   std::size_t boxes_ = 0;
 };
 
@@ -216,12 +217,12 @@ std::vector<Part> joined(const std::vector<Part>& parts) {
 }
 
 /// What the closed form answers of the target, over a range.
-FeasibleValues closed_form_values(const ClosedFormLine& line, const Bounds& range,
-                                  const Target& target, Progress& progress) {
+FeasibleValues values_of_servos(const ServoLine& line, const Bounds& range, const Target& target,
+                                Progress& progress) {
   FeasibleValues found{.searched = range};
   const bool is_certified = !line.has_bounces();
   found.kind = is_certified ? SearchKind::certified : SearchKind::scanned;
-  ClosedFormSearch search(line, target, progress);
+  ServoSearch search(line, target, progress);
   put_together(
       is_certified ? joined(search.certified(range)) : search.scanned(range),
       [&](double value) { return search.is_met_at(value); },
@@ -268,21 +269,20 @@ void name_ends(const std::vector<Bounds>& before, FeasibleValues& found) {
 
 /// Keeps of the intervals what meets the other conditions too. An interval all of whose values meet
 /// them stays as it is.
-void narrow(const Drive& drive, const Axis& axis, const ClosedFormLine* line, const Target& others,
+void narrow(const Drive& drive, const Axis& axis, const ServoLine* line, const Target& others,
             const std::vector<double>& values, FeasibleValues& found, Progress& progress) {
   constexpr std::size_t usual_evaluations = 200;
   const Wanted wanted = wanted_for(others, drive);
-  AnswerJudge search(
-      [&](double value) -> std::optional<Answer> {
-        Drive changed = drive;
-        set_on(axis, changed, value);
-        if (!faults(changed).empty()) return std::nullopt;
-        Answer answer = line == nullptr ? Answer{} : line->answer_at(value);
-        add_figures(changed, wanted, answer, search.progress());
-        return answer;
-      },
-      others, usual_evaluations, progress);
-  const auto judge = [&](double value) { return search(value); };
+  const DriveAlong along = drives_along(axis, drive);
+  JudgedLine search(along, answered_by([&](double value) -> std::optional<Answer> {
+                      const Drive changed = along(value);
+                      if (!faults(changed).empty()) return std::nullopt;
+                      Answer answer = line == nullptr ? Answer{} : line->answer_at(value);
+                      add_figures(changed, wanted, answer, search.line().progress());
+                      return answer;
+                    }),
+                    usual_evaluations, others, progress);
+  const auto judge = [&](double value) { return search.afresh(value); };
   constexpr Resolution resolution{.smooth = 1e-12, .at_jump = 1e-9};
   const std::vector<Bounds> intervals = std::exchange(found.intervals, {});
   std::vector<JudgedValue> all;
@@ -300,8 +300,8 @@ void narrow(const Drive& drive, const Axis& axis, const ClosedFormLine* line, co
   name_ends(intervals, found);
   if (found.intervals.empty() && !all.empty()) found.closest = closest_of(all);
   found.searched_within = others;
-  found.evaluations += search.evaluations();
-  found.stopped = found.stopped || search.is_stopped();
+  found.evaluations += search.line().evaluations();
+  found.stopped = found.stopped || search.line().is_stopped();
 }
 
 /// The last value towards an unsound one of which the drive is sound: `sound` itself towards 0.
@@ -317,10 +317,8 @@ double last_sound(double sound, double unsound, IsSound&& is_sound) {
 
 /// Cuts a rising grid to where the drive is sound, unless it is so nowhere.
 void cut_to_sound_drives(const Axis& axis, const Drive& drive, FeasibleValues& found) {
-  const auto is_sound = [&](double value) {
-    Drive changed = drive;
-    set_on(axis, changed, value);
-    return faults(changed).empty();
+  const auto is_sound = [along = drives_along(axis, drive)](double value) {
+    return faults(along(value)).empty();
   };
   std::vector<double>& grid = found.grid;
   const auto first = std::find_if(grid.begin(), grid.end(), is_sound);
@@ -383,7 +381,7 @@ bool is_alias(const Parameter& parameter, std::string_view path) {
 }
 
 /// What a designer considers first, if it enters the closed form.
-std::vector<std::string> usual_in_closed_form(const Drive& drive) {
+std::vector<std::string> usual_numbers_of_servo(const Drive& drive) {
   constexpr std::string_view first[] = {"servo.backlash",      "gearbox.backlash",
                                         "gearbox.ratio",       "controller.proportional",
                                         "controller.position", "controller.speed",
@@ -395,7 +393,7 @@ std::vector<std::string> usual_in_closed_form(const Drive& drive) {
   for (const std::string_view path : first) {
     const bool is_said_before = drive.servo && path == "gearbox.backlash";
     const std::string name(path);
-    if (!is_said_before && ClosedFormLine::along(drive, name)) usual.push_back(name);
+    if (!is_said_before && ServoLine::along(drive, name)) usual.push_back(name);
   }
   return usual;
 }
@@ -403,7 +401,7 @@ std::vector<std::string> usual_in_closed_form(const Drive& drive) {
 /// The values of a number that meet the target. `found` has its grid.
 FeasibleValues values_of_number(const Drive& drive, const Axis& axis, const Target& target,
                                 FeasibleValues found, Progress& progress) {
-  const std::optional<ClosedFormLine> line = ClosedFormLine::along(drive, axis.path);
+  const std::optional<ServoLine> line = ServoLine::along(drive, axis.path);
   const bool is_bounded = line && !line->has_bounces();
   const auto [first, others] = is_bounded
                                    ? parts_of(target, [](Quantity one) { return is_of_boxes(one); })
@@ -415,7 +413,7 @@ FeasibleValues values_of_number(const Drive& drive, const Axis& axis, const Targ
     found.kind = SearchKind::scanned;
     found.intervals = {found.searched};
   } else if (line) {
-    FeasibleValues closed = closed_form_values(*line, found.searched, first, searching);
+    FeasibleValues closed = values_of_servos(*line, found.searched, first, searching);
     closed.parameter = found.parameter;
     closed.present = found.present;
     found = std::move(closed);
@@ -471,7 +469,7 @@ Axis usual_axis(const Drive& drive, std::string_view parameter) {
 
 Axis axis_to_search(std::string_view field, const Drive& drive, std::string_view parameter) {
   Axis axis{.path = path_named(parameter, drive)};
-  const std::optional<ClosedFormLine> line = ClosedFormLine::along(drive, axis.path);
+  const std::optional<ServoLine> line = ServoLine::along(drive, axis.path);
   if (!line) return usual_axis(field, drive, parameter);
   if (const Parameter& own = *parameter_of(axis, drive); is_alias(own, axis.path)) {
     axis.path = own.path;
@@ -488,7 +486,7 @@ Axis axis_to_search(const Drive& drive, std::string_view parameter) {
 }
 
 std::vector<std::string> usual_parameters(const Drive& drive) {
-  if (faults(drive).empty() && closed_form_drive(drive)) return usual_in_closed_form(drive);
+  if (faults(drive).empty() && !engines_of(drive).search) return usual_numbers_of_servo(drive);
   std::vector<std::string> usual;
   for (const ParameterInfo& parameter : parameters_of(drive)) {
     const std::string path(parameter.path);

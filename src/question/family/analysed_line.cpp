@@ -24,9 +24,20 @@ DriveAlong drives_along(const Axis& axis, const Drive& drive) {
   };
 }
 
-AnalysedLine::AnalysedLine(DriveAlong drive, const Wanted& wanted, std::size_t usual,
+AnalysedLine::AnalysedLine(DriveAlong drive, Analyse analyse, std::size_t usual, Progress& progress)
+    : drive_(std::move(drive)), analyse_(std::move(analyse)), usual_(usual), progress_(progress) {}
+
+AnalysedLine::AnalysedLine(const DriveAlong& drive, const Wanted& wanted, std::size_t usual,
                            Progress& progress)
-    : drive_(std::move(drive)), wanted_(wanted), usual_(usual), progress_(progress) {}
+    : AnalysedLine(
+          drive,
+          [drive, wanted](double value, const Analysis* near, Progress& heard) -> Known {
+            const Drive there = drive(value);
+            if (!faults(there).empty()) return nullptr;
+            return std::make_shared<const Analysis>(
+                analyse_until(there, wanted, is_hopeless, heard, near));
+          },
+          usual, progress) {}
 
 bool AnalysedLine::Heard::go_on(double share, std::size_t bytes) {
   const std::scoped_lock lock(line_.hearing_);
@@ -37,10 +48,8 @@ bool AnalysedLine::Heard::go_on(double share, std::size_t bytes) {
 }
 
 AnalysedLine::Known AnalysedLine::analysed(double value, const Known& near) {
-  const Drive drive = drive_(value);
-  if (!faults(drive).empty() || is_stopped_) return nullptr;
-  Known analysis = std::make_shared<const Analysis>(
-      analyse_until(drive, wanted_, is_hopeless, heard_, near.get()));
+  Known analysis = is_stopped_ ? nullptr : analyse_(value, near.get(), heard_);
+  if (!analysis) return nullptr;
   ++evaluations_;
   const Answer& answer = analysis->answer;
   if (answer.search && !answer.search->is_complete) return nullptr;

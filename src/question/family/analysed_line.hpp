@@ -22,9 +22,15 @@ DriveAlong drives_along(const Axis& axis, const Drive& drive);
 class AnalysedLine {
  public:
   using Known = std::shared_ptr<const Analysis>;
+  /// Analyses the drive at a value, perhaps from one beside it; nullptr for an unsound drive, and
+  /// where it was stopped.
+  using Analyse = std::function<Known(double value, const Analysis* near, Progress& progress)>;
 
-  /// `usual`: the number of analyses that are expected, for the progress alone.
-  AnalysedLine(DriveAlong drive, const Wanted& wanted, std::size_t usual, Progress& progress);
+  /// By `analyse`. `usual`: the number of analyses that are expected, for the progress alone.
+  AnalysedLine(DriveAlong drive, Analyse analyse, std::size_t usual, Progress& progress);
+  /// By analyse_until(). Where the first five starts are undecided the others are left out.
+  AnalysedLine(const DriveAlong& drive, const Wanted& wanted, std::size_t usual,
+               Progress& progress);
 
   const DriveAlong& drive() const { return drive_; }
   std::size_t evaluations() const { return evaluations_; }
@@ -32,8 +38,7 @@ class AnalysedLine {
   /// For other work along the line.
   Progress& progress() { return heard_; }
 
-  /// nullptr for an unsound drive, and where the work was stopped. Where the first five starts are
-  /// undecided the others are left out.
+  /// nullptr for an unsound drive, and where the work was stopped.
   Known afresh(double value) { return analysed(value, nullptr); }
   /// Followed from an analysis beside it.
   Known followed(double value, const Known& near) { return analysed(value, near); }
@@ -56,7 +61,7 @@ class AnalysedLine {
   Known analysed(double value, const Known& near);
 
   DriveAlong drive_;
-  Wanted wanted_;
+  Analyse analyse_;
   std::size_t usual_;
   Progress& progress_;
   Heard heard_{*this};

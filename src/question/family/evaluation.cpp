@@ -5,12 +5,14 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <utility>
 
 #include "base/on_threads.hpp"
 #include "base/shared_progress.hpp"
 #include "base/special_numbers.hpp"
+#include "closed_form/drive_box.hpp"
+#include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
-#include "question/final_servo.hpp"
 
 namespace gearlash {
 namespace {
@@ -67,26 +69,31 @@ void write(const CycleColumns& columns, std::size_t row, const Answer& answer) {
   }
 }
 
+/// The units of a servo's row.
+struct SolvedScale {
+  explicit SolvedScale(const ProportionalServo& servo)
+      : natural_frequency(servo.natural_frequency),
+        stiffness(servo.stiffness.value_or(not_a_number)) {}
+
+  double natural_frequency;
+  double stiffness;  ///< NaN where unknown
+};
+
 /// Scales a row from the normal form to SI.
-void scale(const CycleColumns& columns, std::size_t row, double natural_frequency,
-           double stiffness) {
+void scale(const CycleColumns& columns, std::size_t row, const SolvedScale& unit) {
   const auto by = [&](Quantity quantity, double factor) {
     if (!columns[quantity].empty()) columns[quantity][row] *= factor;
   };
   for (const Quantity time : {Quantity::period, Quantity::engaged_time, Quantity::separated_time}) {
-    by(time, 1.0 / natural_frequency);
+    by(time, 1.0 / unit.natural_frequency);
   }
   for (const Quantity rate : {Quantity::frequency, Quantity::impact_speed}) {
-    by(rate, natural_frequency);
+    by(rate, unit.natural_frequency);
   }
   for (const Quantity loss :
        {Quantity::motor_friction_loss, Quantity::load_friction_loss, Quantity::impact_loss}) {
-    by(loss, stiffness);
+    by(loss, unit.stiffness);
   }
-}
-
-void scale(const CycleColumns& columns, std::size_t row, const FinalServo& servo) {
-  scale(columns, row, servo.closed_form.natural_frequency, servo.stiffness.value_or(not_a_number));
 }
 
 /// Fills in what Answer::value() gives for drives that come to rest, and for the verdict.
@@ -148,6 +155,7 @@ class FamilyPart {
         columns_(rows_of(asked.columns, first, count)),
         member_(family),
         servos_(count),
+        means_(count, Means::solution),
         values_(count * family.width()),
         longest_run_(longest_run) {
     const bool needs_more = asked.take || columns_.verdict.empty();
@@ -159,33 +167,35 @@ class FamilyPart {
     for (std::size_t row = 0; row < servos_.size(); ++row) place(row);
     RowCount count;
     count.solved = find_limit_cycles(servos_, columns_, unit);
-    count.solved.one_by_one -= refused_.size() + searched_.size();  // less the stand-ins
+    count.refused = static_cast<std::size_t>(std::count(means_.begin(), means_.end(), Means::none));
+    count.solved.one_by_one -= count.refused + searched_.size();  // less the stand-ins
     if (asked_.proved) {
       count.unproved = keep_proved(servos_, columns_, [&](std::size_t row) { return box(row); });
     }
     bring_to_si();
-    for (const std::size_t row : refused_) write(columns_, row, Answer{});
-    // What is not reached is unknown.
-    for (const std::size_t row : searched_rows_) write(columns_, row, Answer{});
-    for (std::size_t row = 0; row < servos_.size(); ++row) complete(columns_, row);
+    for (std::size_t row = 0; row < servos_.size(); ++row) {
+      // What is not reached by a search is unknown.
+      if (means_[row] != Means::solution) write(columns_, row, Answer{});
+      complete(columns_, row);
+    }
     if (asked_.take) give_closed(progress);
     search(progress);
     count.stopped = !add_figures_to_columns(progress);
     count.searched = found_;
-    count.refused = refused_.size();
     return count;
   }
 
   std::size_t to_search() const { return searched_.size(); }
 
  private:
-  struct Scale {
-    std::size_t row;
-    double natural_frequency;
-    double stiffness;  ///< NaN where unknown
-  };
+  /// How a row is answered; by none if it is no valid drive.
+  enum class Means : unsigned char { solution, search, none };
 
-  static NormalizedServo stand_in() { return {.damping = 1.0}; }
+  /// The row is not solved: another servo stands in for it.
+  void leave_out(std::size_t row, Means means) {
+    servos_[row] = {.damping = 1.0};
+    means_[row] = means;
+  }
 
   std::span<const double> values(std::size_t row) const {
     return std::span<const double>(values_).subspan(row * family_.width(), family_.width());
@@ -197,8 +207,8 @@ class FamilyPart {
     } else if (family_.normal_form()) {
       place(row, family_.normal_form_at(values(row)));
     } else if (member_.exists()) {
-      const std::optional<FinalServo> servo = member_.servo(values(row));
-      servo ? place(row, *servo, member_.drive()) : refuse(row);
+      const std::optional<ProportionalServo> servo = member_.servo(values(row));
+      servo ? place(row, *servo, member_.drive()) : leave_out(row, Means::none);
     } else {
       place(row, family_.drive_at(values(row)));
     }
@@ -208,30 +218,24 @@ class FamilyPart {
     servos_[row] = servo;
     const bool two_masses = servo.inertia_ratio > 0.0 && std::isfinite(servo.inertia_ratio);
     if (two_masses || faults(servo).empty()) return;  // the axes were checked for the rest
-    refuse(row);
-  }
-
-  void refuse(std::size_t row) {
-    servos_[row] = stand_in();
-    refused_.push_back(row);
+    leave_out(row, Means::none);
   }
 
   void place(std::size_t row, Drive drive) {
-    if (!faults(drive).empty()) return refuse(row);
+    if (!faults(drive).empty()) return leave_out(row, Means::none);
     if (!asked_.one_by_one) {
-      if (const std::optional<FinalServo> servo = final_servo(drive)) {
+      if (const std::optional<ProportionalServo> servo = settled_servo(drive)) {
         return place(row, *servo, drive);
       }
     }
-    servos_[row] = stand_in();
+    leave_out(row, Means::search);
     searched_rows_.push_back(row);
     searched_.push_back(std::move(drive));
   }
 
-  void place(std::size_t row, const FinalServo& servo, const Drive& drive) {
-    servos_[row] = servo.closed_form.servo;
-    scales_.push_back(
-        {row, servo.closed_form.natural_frequency, servo.stiffness.value_or(not_a_number)});
+  void place(std::size_t row, const ProportionalServo& servo, const Drive& drive) {
+    servos_[row] = servo.servo;
+    scales_.emplace_back(row, servo);
     if (asked_.proved && !drive.servo) boxes_.emplace(row, box_of(drive, servo).servo);
   }
 
@@ -262,16 +266,10 @@ class FamilyPart {
   /// Gives the answers that need no search.
   void give_closed(SharedProgress& progress) {
     Answer answer;
-    std::size_t next_searched = 0;
-    std::size_t next_refused = 0;
     for (std::size_t row = 0; row < servos_.size(); ++row) {
       if (asked_.whole && !progress.go_on(0.0)) return;
-      if (next_searched < searched_rows_.size() && searched_rows_[next_searched] == row) {
-        ++next_searched;
-        continue;
-      }
-      const bool is_refused = next_refused < refused_.size() && refused_[next_refused] == row;
-      if (is_refused) ++next_refused;
+      if (means_[row] == Means::search) continue;
+      const bool is_refused = means_[row] == Means::none;
       if (asked_.whole && !is_refused) {
         answer = analyse_in_full(family_.drive_at(values(row)), asked_.wanted, progress).answer;
         answer.verdict = columns_.verdict[row];
@@ -294,12 +292,10 @@ class FamilyPart {
 
   /// Scales all rows from the normal form to SI.
   void bring_to_si() {
-    for (const Scale& one : scales_) {
-      scale(columns_, one.row, one.natural_frequency, one.stiffness);
-    }
+    for (const auto& [row, unit] : scales_) scale(columns_, row, unit);
     if (!family_.normal_form()) return;
-    const FinalServo& shared = *family_.normal_form();
-    if (shared.closed_form.natural_frequency == 1.0 && shared.stiffness == 1.0) return;
+    const SolvedScale shared(*family_.normal_form());
+    if (shared.natural_frequency == 1.0 && shared.stiffness == 1.0) return;
     for (std::size_t row = 0; row < servos_.size(); ++row) {
       scale(columns_, row, shared);
     }
@@ -312,13 +308,13 @@ class FamilyPart {
   CycleColumns columns_;
   FamilyMember member_;
   std::vector<NormalizedServo> servos_;
+  std::vector<Means> means_;
   std::vector<double> values_;
   std::size_t longest_run_;
-  std::vector<Scale> scales_;
+  std::vector<std::pair<std::size_t, SolvedScale>> scales_;
   std::map<std::size_t, ServoBox> boxes_;  ///< of servos computed from data with units
   std::vector<std::size_t> searched_rows_;
   std::vector<Drive> searched_;
-  std::vector<std::size_t> refused_;
   std::size_t found_ = 0;  ///< answers of searched drives
 };
 
@@ -443,28 +439,20 @@ std::span<const Quantity> quantities_known(const EnginesNeeded& engines) {
     }
     return list;
   }();
-  return engines.search ? std::span<const Quantity>(all) : closed_form_quantities;
+  return engines.search ? std::span<const Quantity>(all) : solved_quantities;
 }
 
-PointAnswer answer_at(const Family& family, std::span<const double> place, Quantity quantity,
-                      Progress& progress) {
-  PointAnswer answer;
-  AskedOfRows asked{.columns = {.verdict = {&answer.verdict, 1}}};
-  asked.columns[quantity] = {&answer.value, 1};
-  const FamilyRows row{.count = 1, .fill = [&](std::size_t /*first*/, std::span<double> values) {
-                         std::copy(place.begin(), place.end(), values.begin());
-                       }};
-  evaluate(family, row, asked, progress);
-  return answer;
-}
-
-double motion_value(Quantity quantity, Verdict verdict, double value) {
-  const bool is_absent = is_at_rest(verdict) && info_of(quantity).scope == QuantityScope::motion;
-  return is_absent ? not_a_number : value;
+Table answer_at(const Family& family, std::span<const double> place, Quantity quantity,
+                Progress& progress) {
+  Table table(1, {&quantity, 1});
+  evaluate(family, rows_of(place, place.size()), {.columns = columns_of(table)}, progress);
+  return table;
 }
 
 double motion_value(const Table& table, Quantity quantity, std::size_t row) {
-  return motion_value(quantity, table.verdict(row), table[quantity][row]);
+  const bool is_absent =
+      is_at_rest(table.verdict(row)) && info_of(quantity).scope == QuantityScope::motion;
+  return is_absent ? not_a_number : table[quantity][row];
 }
 
 }  // namespace gearlash

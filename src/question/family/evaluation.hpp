@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <span>
 
 #include "closed_form/lanes/cycle_batch.hpp"
@@ -88,15 +87,9 @@ std::span<const Quantity> quantities_known(const EnginesNeeded& engines);
 
 /// A quantity of the motion: NaN where the drive comes to rest, where a table has amplitude 0.
 double motion_value(const Table& table, Quantity quantity, std::size_t row);
-double motion_value(Quantity quantity, Verdict verdict, double value);
 
-/// The answer at one place between the points; undecided and NaN where there is no valid drive.
-struct PointAnswer {
-  Verdict verdict = Verdict::undecided;
-  double value = std::numeric_limits<double>::quiet_NaN();
-};
-/// As evaluate().
-PointAnswer answer_at(const Family& family, std::span<const double> place, Quantity quantity,
-                      Progress& progress = no_progress());
+/// The answer at one place between the points, as a table of one row; as evaluate().
+Table answer_at(const Family& family, std::span<const double> place, Quantity quantity,
+                Progress& progress = no_progress());
 
 }  // namespace gearlash

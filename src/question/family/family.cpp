@@ -34,21 +34,21 @@ double* place_in(Drive& drive, std::string_view path) {
 }
 
 /// The servo of a normal form whose own numbers do not matter, because they vary.
-std::optional<FinalServo> shared_servo(const Drive& drive) {
+std::optional<ProportionalServo> shared_servo(const Drive& drive) {
   Drive any = drive;  // because the drive's own numbers may be at fault
   any.servo = NormalForm{.damping = 0.5,
                          .inertia_ratio = 1.0,
                          .friction_ratio = 0.5,
                          .backlash = 1.0,
                          .natural_frequency = drive.servo->natural_frequency};
-  std::optional<FinalServo> servo = faults(any).empty() ? final_servo(any) : std::nullopt;
+  std::optional<ProportionalServo> servo = faults(any).empty() ? settled_servo(any) : std::nullopt;
   if (!servo) return servo;
   const NormalForm& form = *drive.servo;
-  servo->closed_form.servo = {.damping = form.damping,
-                              .inertia_ratio = form.inertia_ratio,
-                              .friction_ratio = form.friction_ratio,
-                              .backlash = form.backlash,
-                              .restitution = servo->closed_form.servo.restitution};
+  servo->servo = {.damping = form.damping,
+                  .inertia_ratio = form.inertia_ratio,
+                  .friction_ratio = form.friction_ratio,
+                  .backlash = form.backlash,
+                  .restitution = servo->servo.restitution};
   return servo;
 }
 
@@ -121,30 +121,30 @@ Family::Family(Drive base, const std::vector<Axis>& axes, Breakaway breakaway)
   for (const std::vector<double>& corner : corners_of(axes)) {
     const Drive drive = drive_at(corner);
     const bool is_sound = faults(drive).empty();
-    const std::optional<FinalServo> servo = is_sound ? final_servo(drive) : std::nullopt;
+    const std::optional<ProportionalServo> servo = is_sound ? settled_servo(drive) : std::nullopt;
     are_all_closed = are_all_closed && servo;
     if (!is_sound) continue;
-    (servo ? engines_.closed_form : engines_.search) = true;
-    if (servo && servo->closed_form.servo.restitution > 0.0) engines_.bounces = true;
+    (servo ? engines_.solution : engines_.search) = true;
+    if (servo && servo->servo.restitution > 0.0) engines_.bounces = true;
     if (are_all_closed && !closed_) closed_ = without_ended_signals(drive);
   }
   if (!are_all_closed) closed_.reset();
 }
 
 NormalizedServo Family::normal_form_at(std::span<const double> values) const {
-  NormalizedServo servo = normal_form_->closed_form.servo;
+  NormalizedServo servo = normal_form_->servo;
   for (std::size_t i = 0; i < values.size(); ++i) servo.*members_[i] = values[i];
   return servo;
 }
 
-std::optional<FinalServo> Family::servo_at(std::span<const double> values) const {
+std::optional<ProportionalServo> Family::servo_at(std::span<const double> values) const {
   if (normal_form_) {
-    FinalServo point = *normal_form_;
-    point.closed_form.servo = normal_form_at(values);
-    return faults(point.closed_form.servo).empty() ? std::optional(point) : std::nullopt;
+    ProportionalServo point = *normal_form_;
+    point.servo = normal_form_at(values);
+    return faults(point.servo).empty() ? std::optional(point) : std::nullopt;
   }
   const Drive drive = drive_at(values);
-  return faults(drive).empty() ? final_servo(drive) : std::nullopt;
+  return faults(drive).empty() ? settled_servo(drive) : std::nullopt;
 }
 
 FamilyMember::FamilyMember(const Family& family) : drive_(family.closed_) {
@@ -153,10 +153,10 @@ FamilyMember::FamilyMember(const Family& family) : drive_(family.closed_) {
   is_whole_ = std::find(places_.begin(), places_.end(), nullptr) == places_.end();
 }
 
-std::optional<FinalServo> FamilyMember::servo(std::span<const double> values) {
+std::optional<ProportionalServo> FamilyMember::servo(std::span<const double> values) {
   for (std::size_t i = 0; i < values.size(); ++i) *places_[i] = values[i];
-  const FinalServo servo = servo_without_checks(*drive_);
-  return faults(servo.closed_form.servo).empty() ? std::optional(servo) : std::nullopt;
+  const ProportionalServo servo = servo_without_checks(*drive_);
+  return faults(servo.servo).empty() ? std::optional(servo) : std::nullopt;
 }
 
 }  // namespace gearlash

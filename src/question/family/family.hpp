@@ -5,16 +5,16 @@
 #include <span>
 #include <vector>
 
+#include "model/proportional_servo.hpp"
 #include "question/axis.hpp"
-#include "question/final_servo.hpp"
 
 namespace gearlash {
 
 /// The engines that the drives of a family need.
 struct EnginesNeeded {
-  bool closed_form = false;
-  bool bounces = false;  ///< closed form with bounces, which needs a search of its own
-  bool search = false;   ///< the general engine
+  bool solution = false;  ///< the closed form
+  bool bounces = false;   ///< closed form with bounces, which needs a search of its own
+  bool search = false;    ///< the general engine
 };
 
 /// What a breakaway torque that does not vary by itself does where the Coulomb friction of its
@@ -44,11 +44,11 @@ class Family {
     return drive_with(base_, axes_, values, breakaway_);
   }
   /// The same in closed form; empty for an unsound drive, or one that must be searched.
-  std::optional<FinalServo> servo_at(std::span<const double> values) const;
+  std::optional<ProportionalServo> servo_at(std::span<const double> values) const;
 
   /// For a normal form of which only its own numbers vary: what all of its servos share. Empty for
   /// any other family.
-  const std::optional<FinalServo>& normal_form() const { return normal_form_; }
+  const std::optional<ProportionalServo>& normal_form() const { return normal_form_; }
   /// As servo_at(), unchecked. Precondition: normal_form().
   NormalizedServo normal_form_at(std::span<const double> values) const;
 
@@ -58,12 +58,15 @@ class Family {
   Drive base_;
   std::vector<Axis> axes_;  ///< without their values
   Breakaway breakaway_;
-  std::optional<FinalServo> normal_form_;
+  std::optional<ProportionalServo> normal_form_;
   std::vector<double NormalizedServo::*> members_;
   EnginesNeeded engines_;
   /// One of the drives, if all have a closed form and only numbers vary; without settled signals.
   std::optional<Drive> closed_;
 };
+
+/// Those of a single drive; none of an unsound one.
+inline EnginesNeeded engines_of(const Drive& drive) { return Family(drive, {}).engines(); }
 
 /// One drive of a family after another, of which all have a closed form: each place of a value is
 /// looked up once. For one thread at a time.
@@ -76,7 +79,7 @@ class FamilyMember {
   /// Whether servo() answers for this family.
   bool exists() const { return is_whole_; }
   /// Empty for values that give no servo. Precondition: exists().
-  std::optional<FinalServo> servo(std::span<const double> values);
+  std::optional<ProportionalServo> servo(std::span<const double> values);
   /// The drive of the last servo().
   const Drive& drive() const { return *drive_; }
 

@@ -19,8 +19,7 @@ bool comes_to_rest(const Analysis& analysis) {
     return analysis.search->count(drive::MotionEnd::rest) > 0;
   }
   const Verdict verdict = analysis.answer.verdict;
-  return verdict == Verdict::cannot_hunt || verdict == Verdict::comes_to_rest ||
-         verdict == Verdict::hunts_if_disturbed;
+  return is_at_rest(verdict) || verdict == Verdict::hunts_if_disturbed;
 }
 
 bool may_run_away(const Analysis& analysis) {

@@ -9,7 +9,6 @@
 #include "question/analyse.hpp"
 #include "question/family/evaluation.hpp"
 #include "question/map/hunting_boundary.hpp"
-#include "question/map/hunting_end.hpp"
 
 namespace gearlash {
 namespace {
@@ -48,13 +47,17 @@ double limit_beside(const NormalizedServo& servo, Quantity quantity) {
   return limit_where_hunting_ends(quantity, servo.backlash).value_or(not_a_number);
 }
 
-/// The quantity at a place with plastic contact, or its limit if the servo does not hunt.
+/// The quantity of a row, or with plastic contact its limit if the servo does not hunt.
+double known_or_limit(const Family& family, const Table& table, std::size_t row, Quantity quantity,
+                      const MapPoint& place) {
+  const double value = motion_value(table, quantity, row);
+  const bool has_limit = std::isnan(value) && table.verdict(row) == Verdict::cannot_hunt;
+  return has_limit ? limit_beside(servo_at(family, place).value(), quantity) : value;
+}
+
 double worked_out(const Family& family, Quantity quantity, const MapPoint& place) {
-  const PointAnswer answer = answer_at(family, std::array{place.y, place.x}, quantity);
-  const double value = motion_value(quantity, answer.verdict, answer.value);
-  return std::isnan(value) && answer.verdict == Verdict::cannot_hunt
-             ? limit_beside(servo_at(family, place).value(), quantity)
-             : value;
+  return known_or_limit(family, answer_at(family, std::array{place.y, place.x}, quantity), 0,
+                        quantity, place);
 }
 
 Side side_of(double value, double level) {
@@ -132,11 +135,9 @@ std::vector<Contour> contours_of(const Grid& grid, const Table& table, Quantity 
   const std::size_t width = grid.axes[1].values.size();
   std::vector<double> values(table.rows());
   for (std::size_t row = 0; row < values.size(); ++row) {
-    values[row] = motion_value(table, quantity, row);
-    if (!plastic || !std::isnan(values[row]) || table.verdict(row) != Verdict::cannot_hunt)
-      continue;
     const MapPoint place{grid.axes[1].values[row % width], grid.axes[0].values[row / width]};
-    values[row] = limit_beside(servo_at(family, place).value(), quantity);
+    values[row] = plastic ? known_or_limit(family, table, row, quantity, place)
+                          : motion_value(table, quantity, row);
   }
   std::vector<Contour> contours;
   for (const double level : levels) {

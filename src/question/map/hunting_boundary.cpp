@@ -3,8 +3,11 @@
 #include <array>
 #include <cmath>
 
+#include "base/special_numbers.hpp"
 #include "closed_form/energy_balance.hpp"
 #include "closed_form/growth_at_rest.hpp"
+#include "model/proportional_servo.hpp"
+#include "question/map/side_bisection.hpp"
 
 namespace gearlash {
 namespace {
@@ -17,8 +20,8 @@ Side side_of(double growth_at_rest) {
 }  // namespace
 
 std::optional<NormalizedServo> servo_at(const Family& family, const MapPoint& place) {
-  const std::optional<FinalServo> servo = family.servo_at(std::array{place.y, place.x});
-  return servo ? std::optional(servo->closed_form.servo) : std::nullopt;
+  const std::optional<ProportionalServo> servo = family.servo_at(std::array{place.y, place.x});
+  return servo ? std::optional(servo->servo) : std::nullopt;
 }
 
 Side side_of_hunting(const std::optional<NormalizedServo>& servo) {
@@ -51,6 +54,34 @@ std::vector<MapCurve> hunting_boundary(const Grid& grid, std::span<const double>
   for (const double growth : growth_at_rest) corners.push_back(side_of(growth));
   const auto side = [&](const MapPoint& place) { return side_of_hunting(servo_at(family, place)); };
   return boundary_of_region(grid.axes[1], grid.axes[0], corners, side, {}, progress);
+}
+
+double hunting_end(const std::function<NormalizedServo(double place)>& servo_at, double hunting,
+                   double quiet) {
+  const auto side_at = [&](double place) { return side_of_hunting(servo_at(place)); };
+  constexpr int halvings = 60;
+  return bisect_sides(side_at, hunting, quiet, halvings).place;
+}
+
+std::optional<double> limit_where_hunting_ends(Quantity quantity, double backlash) {
+  switch (quantity) {
+    case Quantity::motor_amplitude:
+      return 0.5 * backlash;
+    case Quantity::amplitude:
+    case Quantity::frequency:
+    case Quantity::impact_speed:
+    case Quantity::motor_friction_loss:
+    case Quantity::load_friction_loss:
+    case Quantity::impact_loss:
+      return 0.0;
+    case Quantity::multiplier:
+      return 1.0;
+    case Quantity::period:
+    case Quantity::separated_time:
+      return infinity;
+    default:
+      return std::nullopt;
+  }
 }
 
 }  // namespace gearlash

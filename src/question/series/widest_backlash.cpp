@@ -6,6 +6,7 @@
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
 #include "gearlash/parameter.hpp"
+#include "model/proportional_servo.hpp"
 #include "question/change/target.hpp"
 #include "question/series/replicates.hpp"
 #include "question/series/sample_plan.hpp"
@@ -108,7 +109,7 @@ std::optional<WidestBacklash> widest_backlash(const TolerancedDrive& drive,
   RangeCheck check;
   check.include(faults(drive));
   if (check.faults().empty() && is_searched(drive)) {
-    check.refuse("drive", "without a closed form", permitted_with_closed_form);
+    check.refuse("drive", "without a closed form", permitted_with_servo);
   }
   check.include(faults(sampling)).include(faults(demand));
   require_none(check.faults());

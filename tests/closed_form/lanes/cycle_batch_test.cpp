@@ -16,7 +16,7 @@
 #include "base/same_bits.hpp"
 #include "base/seeded_draws.hpp"
 #include "closed_form/growth_at_rest.hpp"
-#include "question/map/hunting_end.hpp"
+#include "question/map/hunting_boundary.hpp"
 #include "question/map/servo_grids.hpp"
 
 namespace gearlash::cycle_batch_test {
@@ -47,7 +47,7 @@ Table one_by_one(const std::vector<NormalizedServo>& servos) {
                                cycle.residual};
     table.column_of_verdicts()[row] = analysis.verdict;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      table.column(closed_form_quantities.at(i))[row] = values.at(i);
+      table.column(solved_quantities.at(i))[row] = values.at(i);
     }
   }
   return table;
@@ -71,7 +71,7 @@ void expect_near(const Table& batch, const Table& single,
   for (std::size_t row = 0; row < servos.size(); ++row) {
     SCOPED_TRACE(described(servos[row]));
     ASSERT_EQ(batch.verdict(row), single.verdict(row));
-    for (const Quantity quantity : closed_form_quantities) {
+    for (const Quantity quantity : solved_quantities) {
       const double value = batch[quantity][row];
       const double reference = single[quantity][row];
       ASSERT_EQ(std::isnan(value), std::isnan(reference)) << name_of(quantity);
@@ -268,7 +268,7 @@ TEST(EdgeCycleBatch, ColumnsMayBeLeftOut) {
   for (int i = 0; i < 100; ++i) servos.push_back(any_servo(draws));
   Table all = table_of(servos.size());
   find_limit_cycles(servos, columns_of(all));
-  for (const Quantity quantity : closed_form_quantities) {
+  for (const Quantity quantity : solved_quantities) {
     std::vector<double> alone(servos.size());
     CycleColumns columns;
     columns[quantity] = alone;

@@ -12,6 +12,7 @@
 #include "input/signal_reader.hpp"
 #include "input/sweep_file.hpp"
 #include "input/target_text.hpp"
+#include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 #include "model/signal.hpp"
 
@@ -31,7 +32,7 @@ void require_sound(const gearlash::SweepFile& file) {
 void require_sound(const gearlash::WrittenDrive& written) {
   require(written.angle.radians > 0.0 && !written.angle.name.empty());
   require(gearlash::faults(written.drive).empty());
-  if (const auto servo = gearlash::closed_form_servo(written.drive)) {
+  if (const auto servo = gearlash::proportional_servo(written.drive)) {
     return require(gearlash::faults(servo->servo).empty() && servo->natural_frequency > 0.0);
   }
   const gearlash::drive::ReducedDrive reduced = gearlash::reduce(written.drive);

@@ -95,7 +95,7 @@ double difference(const std::function<double(double)>& value_at, double present,
 void expect_slopes(const Jacobian& found, const Drive& drive, std::size_t column, double scale,
                    double tolerance) {
   const std::string& name = found.paths[column];
-  const ClosedFormLine line = line_of(drive, name);
+  const ServoLine line = line_of(drive, name);
   for (std::size_t row = 0; row < found.quantities.size(); ++row) {
     const Quantity quantity = found.quantities[row];
     const double exact =

@@ -56,7 +56,7 @@ TEST(OracleDriveBox, HoldsAServoWithin) {
                                 .backlash = draws.log_uniform(1e-4, 1.0)};
     const double frequency = draws.log_uniform(0.1, 100.0);
     const Drive drive = drive_of(servo, frequency);
-    const ClosedFormLine line = line_of(drive, parameter);
+    const ServoLine line = line_of(drive, parameter);
     const double present = line.present();
     const Bounds range = line.range();
     if (!range.contains(present)) continue;  // damping beyond ten times critical
@@ -144,10 +144,10 @@ TEST(PropertyDriveBox, HoldsEveryDataSheetBetweenItsEnds) {
   int compared = 0;
   for (std::size_t i = 0; i < 4000 && !HasFailure(); ++i) {
     const Drive sheet = drawn_data_sheet(draws);
-    if (!faults(sheet).empty() || !closed_form_servo(sheet)) continue;  // feedback beyond friction
+    if (!faults(sheet).empty() || !proportional_servo(sheet)) continue;  // feedback beyond friction
     const std::vector<std::string> names = drive_sensitivity(sheet).paths;
     const std::string& name = names[i % names.size()];
-    const ClosedFormLine line = line_of(sheet, name);
+    const ServoLine line = line_of(sheet, name);
     const Bounds range = line.range();
     if (line.is_share() || !(range.high > range.low)) continue;
     SCOPED_TRACE(testing::Message() << "case " << i << ", " << name);

@@ -7,8 +7,9 @@
 
 #include "base/special_numbers.hpp"
 #include "closed_form/closed_answer.hpp"
+#include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
-#include "question/change/closed_form_line.hpp"
+#include "question/change/servo_line.hpp"
 
 namespace gearlash {
 
@@ -26,16 +27,18 @@ inline Drive drive_of(const NormalizedServo& servo, double natural_frequency = 1
 }
 
 /// The drives with other values of a number, which must enter the closed form.
-inline ClosedFormLine line_of(const Drive& drive, std::string_view parameter) {
-  return *ClosedFormLine::along(drive, std::string(parameter));
+inline ServoLine line_of(const Drive& drive, std::string_view parameter) {
+  return *ServoLine::along(drive, std::string(parameter));
 }
 
-inline Drivetrain drivetrain_of(const Drive& drive) { return final_servo(drive)->drivetrain; }
+inline Drivetrain drivetrain_of(const Drive& drive) { return settled_servo(drive)->drivetrain; }
 
 /// What the closed form says.
 inline Answer closed_answer(const Drivetrain& drive) {
-  const NormalizedServo servo = normalize(drive);
-  return answer_of(analyse_limit_cycles(servo), {servo, natural_frequency(drive)}, drive.stiffness);
+  return answer_of(ProportionalServo{.servo = normalize(drive),
+                                     .natural_frequency = natural_frequency(drive),
+                                     .drivetrain = drive,
+                                     .stiffness = drive.stiffness});
 }
 inline Answer closed_answer(const Drive& drive) { return closed_answer(drivetrain_of(drive)); }
 

@@ -8,13 +8,13 @@
 #include <numbers>
 
 #include "base/stopping.hpp"
+#include "closed_form/drive_box.hpp"
 #include "closed_form/growth_at_rest.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
 #include "question/change/overall_margin.hpp"
 #include "question/change/target.hpp"
 #include "question/faults_of.hpp"
-#include "question/final_servo.hpp"
 #include "question/pd_drive.hpp"
 
 namespace gearlash::margins_test {
@@ -49,7 +49,7 @@ Drive limited_servo() {
 
 /// With the gain and the load's friction times these factors.
 double growth(double gain, double friction) {
-  static const Drivetrain present = final_servo(servo())->drivetrain;
+  static const Drivetrain present = settled_servo(servo())->drivetrain;
   Drivetrain drive = present;
   drive.stiffness *= gain;
   drive.load_friction *= friction;

@@ -1,4 +1,5 @@
 // Derivatives of searched limit cycles: against the closed form, and against differences.
+#include "question/change/derivatives.hpp"
 #include "question/change/orbit_derivatives.hpp"
 
 #include <gmock/gmock.h>
@@ -14,10 +15,11 @@
 #include <utility>
 
 #include "base/stopping.hpp"
+#include "closed_form/drive_box.hpp"
 #include "gearlash/parameter.hpp"
 #include "gearlash/sensitivity.hpp"
 #include "general/attractors/found_cycle.hpp"
-#include "question/final_servo.hpp"
+#include "model/proportional_servo.hpp"
 #include "question/pd_drive.hpp"
 #include "question/series/toleranced_samples.hpp"
 
@@ -200,7 +202,7 @@ TEST(PropertySearchedSensitivity, AgreesWithDifferencesOfTheCycles) {
     const Analysis analysis = analyse_in_full(drawn, {.borders = false});
     const Cycle* cycle = analysis.answer.largest_stable();
     if (cycle == nullptr || !analysis.search) continue;
-    const Jacobian jacobian = orbit_derivatives(drawn, analysis);
+    const Jacobian jacobian = sensitivities(drawn, analysis);
     if (!jacobian.reason.empty()) continue;
     ++found.cycles;
     const auto index = static_cast<std::size_t>(cycle - analysis.answer.cycles.data());
@@ -224,7 +226,7 @@ TEST(PropertySearchedSensitivity, AgreesWithDifferencesOfTheCycles) {
 /// A servo with a closed form, searched as if it had none.
 TEST(OracleSearchedSensitivity, OfAServoIsThatOfItsClosedForm) {
   const Drive drive = sample_data_sheet();
-  ASSERT_TRUE(closed_form_drive(drive));
+  ASSERT_TRUE(settled_servo(drive));
   Analysis analysis;
   analysis.reduced = reduce_settled(drive);
   analysis.search = drive::find_attractors(analysis.reduced);

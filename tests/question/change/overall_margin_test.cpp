@@ -39,7 +39,7 @@ NormalizedServo drawn_servo(SeededDraws& draws) {
 /// The first value from the present one towards `end` at which hunting starts or stops, in 4,000
 /// steps that grow by ratio, or evenly from 0; NaN if there is none.
 double first_change(const Drive& drive, std::string_view parameter, double end) {
-  const ClosedFormLine line = line_of(drive, parameter);
+  const ServoLine line = line_of(drive, parameter);
   const double present = line.present();
   const bool now = hunts(drivetrain_of(drive));
   constexpr int steps = 4000;

@@ -23,7 +23,7 @@ TEST(DriveList, HasTheBitsOfTheSameGrid) {
   const Grid grid{.drive = drive_of({.backlash = 0.3}),
                   .axes = {linear("servo.damping", 0.02, 0.9, 60),
                            logarithmic("servo.inertia_ratio", 1e-3, 1e3, 120)}};
-  const Table of_grid = evaluate(grid, closed_form_quantities);
+  const Table of_grid = evaluate(grid, solved_quantities);
   std::vector<double> dampings;
   std::vector<double> ratios;
   for (std::size_t i = 0; i < grid.size(); ++i) {
@@ -33,7 +33,7 @@ TEST(DriveList, HasTheBitsOfTheSameGrid) {
   const Table of_list = evaluate({.drive = grid.drive,
                                   .paths = {"servo.damping", "servo.inertia_ratio"},
                                   .values = {dampings, ratios}},
-                                 closed_form_quantities);
+                                 solved_quantities);
   ASSERT_EQ(of_list.rows(), grid.size());
   EXPECT_TRUE(same_bits(of_list, of_grid));
 }

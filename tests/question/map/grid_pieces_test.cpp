@@ -32,8 +32,8 @@ TEST_P(GridInPieces, IsTheGridAtOnce) {
     Table whole = table_of(grid.size());
     const RowCount at_once = work_out(grid, 0, whole);
     std::size_t next = 0;
-    const RowCount count = evaluate_in_pieces(
-        grid, closed_form_quantities, 0, GetParam(), [&](const GridPiece& piece) {
+    const RowCount count =
+        evaluate_in_pieces(grid, solved_quantities, 0, GetParam(), [&](const GridPiece& piece) {
           ASSERT_EQ(piece.first, next);
           ASSERT_LE(piece.table.rows(), GetParam());
           for (std::size_t row = 0; row < piece.table.rows(); ++row) {
@@ -53,12 +53,12 @@ INSTANTIATE_TEST_SUITE_P(Lengths, GridInPieces, testing::Values(1, 30, 31, 32, 1
 TEST(EdgeGridInPieces, GoesOnFromWhereAPieceEnded) {
   const Grid grid = grid_of_servos();
   std::size_t first = 5 * 31;
-  evaluate_in_pieces(grid, closed_form_quantities, first, 62, [&](const GridPiece& piece) {
+  evaluate_in_pieces(grid, solved_quantities, first, 62, [&](const GridPiece& piece) {
     EXPECT_EQ(piece.first, first);
     first += piece.table.rows();
   });
   EXPECT_EQ(first, grid.size());
-  const RowCount nothing = evaluate_in_pieces(grid, closed_form_quantities, grid.size(), 62,
+  const RowCount nothing = evaluate_in_pieces(grid, solved_quantities, grid.size(), 62,
                                               [](const GridPiece&) { FAIL(); });
   EXPECT_FALSE(nothing.stopped);
 }
@@ -70,7 +70,7 @@ TEST(EdgeGridInPieces, StopsWhenAsked) {
     auto progress =
         test::Stopping::at(static_cast<double>(most) / static_cast<double>(grid.size()));
     const RowCount count = evaluate_in_pieces(
-        grid, closed_form_quantities, 0, 31,
+        grid, solved_quantities, 0, 31,
         [&](const GridPiece& piece) { taken += piece.table.rows(); }, progress);
     EXPECT_TRUE(count.stopped) << most;
     EXPECT_EQ(count.solved.side_by_side + count.solved.one_by_one, taken);
@@ -80,7 +80,7 @@ TEST(EdgeGridInPieces, StopsWhenAsked) {
 
 TEST(EdgeGridInPieces, WhatItsTakerThrowsIsThrownOn) {
   std::size_t pieces = 0;
-  EXPECT_THROW(evaluate_in_pieces(grid_of_servos(), closed_form_quantities, 0, 31,
+  EXPECT_THROW(evaluate_in_pieces(grid_of_servos(), solved_quantities, 0, 31,
                                   [&](const GridPiece&) {
                                     if (++pieces == 3) throw std::runtime_error("disk full");
                                   }),

@@ -20,7 +20,7 @@ inline NormalizedServo servo_at(const Grid& grid, const MapPoint& place) {
 }
 
 /// With a column for all that the closed form knows.
-inline Table table_of(std::size_t rows) { return Table(rows, closed_form_quantities); }
+inline Table table_of(std::size_t rows) { return Table(rows, solved_quantities); }
 
 /// Some points; see evaluate() in question/family/evaluation.hpp.
 inline RowCount work_out(const Grid& grid, std::size_t first, Table& table,

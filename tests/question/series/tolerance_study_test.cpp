@@ -254,7 +254,7 @@ TEST(PropertyToleranceStudy, APlainCountOfDrivesAgrees) {
     for (const ParameterTolerance& varied : drive.varied) {
       values.push_back(quantile(varied.distribution, random.uniform(0x1p-53, 1.0)));
     }
-    const ClosedFormServo drawn = drive_with(drive, values);
+    const ProportionalServo drawn = drive_with(drive, values);
     const LimitCycleAnalysis analysis = analyse_limit_cycles(drawn.servo);
     const LimitCycle* cycle = largest_stable(analysis);
     sizes.push_back(cycle != nullptr ? cycle->amplitude : 0.0);

@@ -51,8 +51,8 @@ TEST(TolerancedDrive, IsTheDriveWithItsValues) {
   Drive expected = sound_drive();
   std::get<ArmatureControl>(expected.motor.kind).resistance = 300.0;
   expected.load.inertia = 3e-5;
-  const Drivetrain drivetrain = *proportional_drivetrain(expected);
-  const ClosedFormServo found = drive_with(drive, std::vector{300.0, 3e-5});
+  const Drivetrain drivetrain = proportional_servo(expected).value().drivetrain;
+  const ProportionalServo found = drive_with(drive, std::vector{300.0, 3e-5});
   EXPECT_EQ(found.servo, normalize(drivetrain));
   EXPECT_EQ(found.natural_frequency, natural_frequency(drivetrain));
 }
@@ -65,8 +65,8 @@ std::size_t count_varied(const Drive& nominal) {
     const TolerancedDrive drive{nominal,
                                 {{std::string(parameter.path), UniformBetween{0.01, 0.02}}}};
     if (!faults_of(drive).empty() || is_searched(drive)) continue;
-    const ClosedFormServo low = drive_with(drive, std::vector{0.01});
-    const ClosedFormServo high = drive_with(drive, std::vector{0.02});
+    const ProportionalServo low = drive_with(drive, std::vector{0.01});
+    const ProportionalServo high = drive_with(drive, std::vector{0.02});
     if (low.servo != high.servo || low.natural_frequency != high.natural_frequency) ++numbers;
   }
   return numbers;
@@ -94,7 +94,7 @@ TEST(TolerancedDrive, ATachometersGainCanBeVaried) {
   ASSERT_THAT(faults_of(drive), IsEmpty());
   Drive expected = drive.nominal;
   std::get<PID>(expected.controller.law).derivative = 0.004;
-  EXPECT_EQ(drive_with(drive, std::vector{0.004}).servo, closed_form_servo(expected)->servo);
+  EXPECT_EQ(drive_with(drive, std::vector{0.004}).servo, proportional_servo(expected)->servo);
 }
 
 /// Half as much Coulomb friction again would exceed a breakaway torque that stays.
@@ -166,7 +166,7 @@ TEST(EdgeTolerancedDrive, ACornerThatIsNoDriveIsRefused) {
 TEST(EdgeTolerancedDrive, NothingVariedIsTheNominalDrive) {
   const TolerancedDrive drive{sound_drive(), {}};
   EXPECT_THAT(faults_of(drive), IsEmpty());
-  EXPECT_EQ(drive_with(drive, {}).servo, closed_form_servo(sound_drive())->servo);
+  EXPECT_EQ(drive_with(drive, {}).servo, proportional_servo(sound_drive())->servo);
   EXPECT_EQ(place_of_backlash(drive), std::nullopt);
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/proportional_servo.hpp"
 #include "question/change/drives.hpp"
 #include "question/series/toleranced_drive.hpp"
 
@@ -29,8 +30,9 @@ inline TolerancedDrive normalised_toleranced(std::vector<ParameterTolerance> var
 }
 
 /// The servo of the drive with these values of its varied parameters.
-inline ClosedFormServo drive_with(const TolerancedDrive& drive, const std::vector<double>& values) {
-  return closed_form_servo(family_of(drive).drive_at(values)).value();
+inline ProportionalServo drive_with(const TolerancedDrive& drive,
+                                    const std::vector<double>& values) {
+  return proportional_servo(family_of(drive).drive_at(values)).value();
 }
 
 /// All numbers of the sample but restitution and ratio, some uniform, some normal, one in lots.

@@ -1,4 +1,4 @@
-// The drives along one parameter that the closed form answers.
+// The drives along one number that enters their servo.
 #pragma once
 
 #include <optional>
@@ -6,22 +6,30 @@
 
 #include "gearlash/answer.hpp"
 #include "gearlash/design.hpp"
-#include "question/final_servo.hpp"
+#include "model/answer_bounds.hpp"
+#include "model/proportional_servo.hpp"
+#include "question/change/target.hpp"
 
 namespace gearlash {
 
-/// A drive in which one number changes, all others fixed.
-class ClosedFormLine {
+struct DriveBox;
+
+/// A drive in which one number changes, all others fixed: a family whose drives are all answered in
+/// closed form.
+class ServoLine {
  public:
-  /// Empty if the drive has no closed form, or if the number does not enter it: one that is no
-  /// number of the drive, or whose change would end the closed form. Precondition: a sound drive.
-  static std::optional<ClosedFormLine> along(const Drive& drive, const std::string& path);
+  /// Empty if the drive has no settled_servo(), or if the number does not enter it: one that is no
+  /// number of the drive, or whose change would make it another kind of drive. Precondition: a
+  /// sound drive.
+  static std::optional<ServoLine> along(const Drive& drive, const std::string& path);
 
   /// NaN if it is not given.
   double present() const { return present_; }
+  Drive drive_at(double value) const;
   /// Empty where the drive is unsound.
-  std::optional<FinalServo> at(double value) const;
-  /// What analyse_limit_cycles() gives; undecided where the drive is unsound.
+  std::optional<ProportionalServo> at(double value) const;
+  /// What analyse_limit_cycles() gives; undecided where the drive is unsound: next to a shaft
+  /// without friction, a small friction on the other shaft is less than a servo may have.
   Answer answer_at(double value) const;
   /// The same, computed only as far as the target needs it. With bounces, the search for cycles
   /// takes milliseconds and is skipped where the growth at rest rules the drive out: the verdict is
@@ -32,6 +40,9 @@ class ClosedFormLine {
   /// A box that contains all drives within bounds, with the error of the data. Precondition: both
   /// ends are sound.
   DriveBox box(const Bounds& values) const;
+  /// What is proved of them. The flight time is guessed from the drive in the middle, else at an
+  /// end.
+  AnswerBounds bounds(const Bounds& values) const;
 
   /// 0.001 to 1000 times the present value. Numbers that only add friction, which may be 0: from 0
   /// to the value that alone damps the servo at ten times critical. Shares: 0 to 1. Narrower where
@@ -46,16 +57,18 @@ class ClosedFormLine {
   bool has_bounces() const;
 
  private:
-  ClosedFormLine(Drive drive, std::string path);
-  Drive drive_at(double value) const;
+  ServoLine(Drive drive, std::string path);
   bool is_sound_at(double value) const;
 
   Drive drive_;  ///< without its signals, which do not affect hunting
   Axis axis_;
   std::string_view parameter_;  ///< its path
   Drivetrain drivetrain_;
-  DataError data_error_;
   double present_;
 };
+
+/// The answer of the same drive with another backlash: its motions are proportional to it. Without
+/// energies. Precondition: an answer of a servo, with a backlash.
+Answer with_backlash(Answer answer, double backlash);
 
 }  // namespace gearlash

@@ -2,7 +2,7 @@
 # when the program runs. Elsewhere than on x86 the baseline is all there is.
 # Optimised in every build: unoptimised, xsimd's AVX-512 does not compile with gcc 12, and
 # inline functions that the kernels share with other files would not be inlined.
-set(kernels "${CMAKE_CURRENT_SOURCE_DIR}/closed_form/lanes/cycle_kernel")
+set(kernels "${CMAKE_CURRENT_LIST_DIR}/cycle_kernel")
 set(optimised "$<$<NOT:$<CONFIG:Release,RelWithDebInfo,MinSizeRel>>:-O2>")
 # xsimd converts the exponents of all lanes to integers, those of lanes that are NaN as well, whose
 # results it then leaves out; of SSE2 it does so number by number, which clang's sanitizer notices.
