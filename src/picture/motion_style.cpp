@@ -12,21 +12,19 @@
 
 namespace gearlash {
 
-Bounds widened(const Bounds& extent, double margin) {
-  const auto [low, high] = extent;
-  const double length = high > low ? high - low : std::max(1.0, std::abs(high));
-  return {low - margin * length, high + margin * length};
-}
-
-void ImpactMarks::add(double x, double y, double other) {
+void ImpactMarks::add(const MapPoint& point) {
   constexpr double smallest_distance = 0.004;  // of the extent; less than a mark
-  if (std::abs(x - x_) < smallest_distance * x_extent_ &&
-      std::abs(y - y_) < smallest_distance * y_extent_) {
+  if (!marks_.empty() && std::abs(point.x - marks_.back().x) < smallest_distance * x_extent_ &&
+      std::abs(point.y - marks_.back().y) < smallest_distance * y_extent_) {
     return;
   }
-  x_ = x;
-  y_ = y;
-  marks_.row(x, y, other);
+  marks_.push_back(point);
+}
+
+void ImpactMarks::draw(double size, Panel& panel) const {
+  if (marks_.empty()) return;
+  panel.layers.push_back(
+      {.kind = LayerKind::marks, .name = "impact", .size = size, .points = marks_});
 }
 
 std::vector<DrawnPiece> legible_curve(const MotionPicture& picture, const Motion& motion) {

@@ -167,9 +167,9 @@ void add_portrait(MotionPicture& picture, const drive::ReducedDrive& reduced,
                                .leads = role_of(basins->kinds[i])});
     }
     for (const MapCurve& curve : basins->borders) {
-      std::vector<std::pair<double, double>>& drawn = window.borders.emplace_back();
+      MapCurve& drawn = window.borders.emplace_back();
       for (const MapPoint& point : curve) {
-        drawn.emplace_back(angle.from_radians(point.x), angle.from_radians(point.y));
+        drawn.push_back({angle.from_radians(point.x), angle.from_radians(point.y)});
       }
     }
   }
