@@ -171,7 +171,7 @@ std::vector<const MarkedBorder*> distinct(const BifurcationDiagram& diagram, con
   return kept;
 }
 
-/// Open marks differ in shape, so that they are read without colour.
+/// Marks differ in shape, so that they are read without colour.
 Mark mark_of(const std::string& word) {
   constexpr std::pair<std::string_view, Mark> marks[] = {
       {"fold", Mark::circle},

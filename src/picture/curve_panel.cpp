@@ -161,7 +161,7 @@ Panel cell_panel(const Cells& cells, std::string x_name, std::string y_name) {
         {.kind = LayerKind::area, .colour = colour, .points = std::move(points)});
   }
   panel.layers.push_back(std::move(dots));
-  if (!frames.points.empty()) panel.layers.push_back(std::move(frames));
+  if (!cells.framed.empty()) panel.layers.push_back(std::move(frames));
   return panel;
 }
 

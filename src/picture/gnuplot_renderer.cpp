@@ -117,7 +117,7 @@ void place_column(const PlotColumn& column, double from, double to, double top, 
   std::size_t names = 0;
   for (const Panel& panel : column) names = std::max(names, longest(drawn_y(panel).tics));
   constexpr double shortest_names = 95.0;
-  const double left = from + std::max(shortest_names, 45.0 + letter * static_cast<double>(names));
+  const double left = from + std::max(shortest_names, 50.0 + letter * static_cast<double>(names));
   const double right = to - 0.03 * (to - from) - 1.0;
   for (const Panel& panel : column) {
     if (!panel.title.empty() && &panel != &column.front()) top += panel_title;
@@ -216,21 +216,30 @@ std::string heading(const Page& page) {
 }
 
 /// `name` is 'x' or 'y'.
-std::string axis_commands(char name, const PlotAxis& axis, const DrawnAxis& drawn, bool is_labelled,
+std::string axis_commands(char name, const PlotAxis& axis, const DrawnAxis& drawn, bool is_numbered,
                           bool is_slanted) {
   std::vector<std::string> tics;
   for (const Tic& tic : drawn.tics) {
-    tics.push_back(fmt::format("{} {:.9g}{}", quoted(is_labelled ? tic.text : ""), tic.at,
+    tics.push_back(fmt::format("{} {:.9g}{}", quoted(is_numbered ? tic.text : ""), tic.at,
                                tic.text.empty() ? " 1" : ""));
   }
   const std::string grid =
       fmt::format("set grid {}tics linewidth 0.5 linecolor rgb '#c4c4c4'\n", name);
   return fmt::format(
-      "set {0}range [{1:.9g}:{2:.9g}]\n{3}set logscale {0}\nset {0}label {4}\n"
-      "set {0}tics {5} ({6})\n{7}",
-      name, drawn.ends.low, drawn.ends.high, axis.logarithmic ? "" : "un",
-      quoted(is_labelled ? drawn.label : ""), is_slanted ? "rotate by 35 right" : "norotate",
-      fmt::join(tics, ", "), axis.has_grid ? grid : "");
+      "set {0}range [{1:.9g}:{2:.9g}]\n{3}set logscale {0}\nset {0}tics {4} ({5})\n{6}", name,
+      drawn.ends.low, drawn.ends.high, axis.logarithmic ? "" : "un",
+      is_slanted ? "rotate by 35 right" : "norotate", fmt::join(tics, ", "),
+      axis.has_grid ? grid : "");
+}
+
+/// The names of the axes: gnuplot leaves out one of y for which it sees no room.
+std::string axis_labels(const PlacedPanel& placed) {
+  constexpr double from_numbers = 36.0;
+  const double left =
+      placed.left - from_numbers - letter * static_cast<double>(longest(placed.y.tics));
+  return fmt::format(
+      "set xlabel {}\nset label {} at screen {:.4f}, graph 0.5 center rotate by 90\n",
+      quoted(placed.is_last ? placed.x.label : ""), quoted(placed.y.label), left / page_width);
 }
 
 /// How gnuplot draws the layer, from its colour on.
@@ -292,7 +301,7 @@ std::string panel_commands(const PlacedPanel& placed, std::size_t number, double
                            placed.left / page_width, placed.right / page_width,
                            1.0 - placed.top / height, 1.0 - placed.bottom() / height) +
                        axis_commands('x', panel.x, placed.x, placed.is_last, placed.is_slanted()) +
-                       axis_commands('y', panel.y, placed.y, true, false);
+                       axis_commands('y', panel.y, placed.y, true, false) + axis_labels(placed);
   if (!panel.title.empty()) {
     script += fmt::format("set label {} at graph 0.5, graph 1 center offset 0,0.7\n",
                           quoted(panel.title, "/*0.87"));
@@ -317,7 +326,7 @@ std::string legend_commands(const Page& page, PictureFormat format) {
   for (const Layer* layer : page.legend) entries.push_back(legend_entry(*layer));
   return fmt::format(
              "set lmargin at screen 0.02\nset rmargin at screen 0.98\nunset border\nunset tics\n"
-             "unset grid\nunset xlabel\nunset ylabel\nunset logscale\n"
+             "unset grid\nunset xlabel\nunset logscale\n"
              "set key at screen 0.53, screen 0.004 bottom center horizontal Left reverse samplen 3 "
              "spacing 1.2 maxcols {} font ',{:.3g}'\n",
              page.legend_columns, 0.87 * font_size(format)) +

@@ -246,7 +246,7 @@ Plot cell_plot(const GridTable& table, Quantity quantity) {
               .number_format = "{:.3g}",
               .letters = x.values.size() > 8 ? 0.75 : 1.0,
               .dot_meaning = "comes to rest",
-              .frame_meaning = table.target ? table.target_text : ""};
+              .frame_meaning = table.target ? "framed: " + table.target_text : ""};
   for (const double value : x.values) {
     cells.columns.push_back(short_text(x, grid.drive, value, table.angle));
   }

@@ -12,19 +12,17 @@
 
 namespace gearlash {
 
-void ImpactMarks::add(const MapPoint& point) {
-  constexpr double smallest_distance = 0.004;  // of the extent; less than a mark
-  if (!marks_.empty() && std::abs(point.x - marks_.back().x) < smallest_distance * x_extent_ &&
-      std::abs(point.y - marks_.back().y) < smallest_distance * y_extent_) {
-    return;
+Layer impact_marks(const MapCurve& impacts, const Bounds& x, const Bounds& y, double size) {
+  constexpr double smallest_distance = 0.004;  // of the axes; less than a mark
+  Layer layer{.kind = LayerKind::marks, .name = impacts.empty() ? "" : "impact", .size = size};
+  for (const MapPoint& point : impacts) {
+    const bool covers =
+        !layer.points.empty() &&
+        std::abs(point.x - layer.points.back().x) < smallest_distance * (x.high - x.low) &&
+        std::abs(point.y - layer.points.back().y) < smallest_distance * (y.high - y.low);
+    if (!covers) layer.points.push_back(point);
   }
-  marks_.push_back(point);
-}
-
-void ImpactMarks::draw(double size, Panel& panel) const {
-  if (marks_.empty()) return;
-  panel.layers.push_back(
-      {.kind = LayerKind::marks, .name = "impact", .size = size, .points = marks_});
+  return layer;
 }
 
 std::vector<DrawnPiece> legible_curve(const MotionPicture& picture, const Motion& motion) {

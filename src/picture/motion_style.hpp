@@ -9,21 +9,8 @@
 
 namespace gearlash {
 
-/// Marks of impacts; an impact that would cover the one before it is left out.
-class ImpactMarks {
- public:
-  /// The extents of the axes.
-  ImpactMarks(double x_extent, double y_extent) : x_extent_(x_extent), y_extent_(y_extent) {}
-
-  void add(const MapPoint& point);
-  /// Adds them to the panel if there are any.
-  void draw(double size, Panel& panel) const;
-
- private:
-  double x_extent_;
-  double y_extent_;
-  MapCurve marks_;
-};
+/// Marks of impacts. One that would cover the one before it is left out.
+Layer impact_marks(const MapCurve& impacts, const Bounds& x, const Bounds& y, double size);
 
 /// The curves of one motion of the picture. Throws InvalidInput if there are too many to read.
 std::vector<DrawnPiece> legible_curve(const MotionPicture& picture, const Motion& motion);

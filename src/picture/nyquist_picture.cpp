@@ -27,11 +27,14 @@ constexpr int label_digits = 3;
 
 // ---- key points ---------------------------------------------------------------------------------
 
-enum class MarkKind { stable, unstable, exact_frequency, exact_amplitude };
+constexpr Mark stable_mark = Mark::disc;
+constexpr Mark unstable_mark = Mark::circle;
+constexpr Mark exact_frequency_mark = Mark::diamond;
+constexpr Mark exact_amplitude_mark = Mark::open_diamond;
 
 struct KeyPoint {
   Complex at;
-  MarkKind mark;
+  Mark mark;
   std::string label;  ///< beside it
   std::string legend;
 };
@@ -62,7 +65,7 @@ std::vector<KeyPoint> key_points(const NyquistPicture& picture) {
       const bool stable = cycle.balance.stable;
       const std::string name = std::to_string(++number);
       points.push_back({loop_at(analysis.loop, cycle.balance.frequency),
-                        stable ? MarkKind::stable : MarkKind::unstable, name,
+                        stable ? stable_mark : unstable_mark, name,
                         fmt::format("{} {}{}: {}", name, stable ? "stable" : "unstable",
                                     distinction(picture, analysis),
                                     motion_text(cycle.amplitude, cycle.balance.period, picture))});
@@ -71,13 +74,13 @@ std::vector<KeyPoint> key_points(const NyquistPicture& picture) {
   for (const drive::ExactMotion& cycle : picture.exact) {
     if (!is_drawn(cycle)) continue;
     points.push_back(
-        {loop_at(picture.analyses.front().loop, turn / cycle.period), MarkKind::exact_frequency,
+        {loop_at(picture.analyses.front().loop, turn / cycle.period), exact_frequency_mark,
          "exact ω",
          "L at the exact frequency: " + motion_text(cycle.amplitude, cycle.period, picture)});
     for (const DescribingAnalysis& analysis : picture.analyses) {
       points.push_back(
           {inverse_gain(analysis.nonlinearity, drive::input_amplitude(analysis, cycle)),
-           MarkKind::exact_amplitude, "exact A",
+           exact_amplitude_mark, "exact A",
            "−1/N at the exact amplitude" + distinction(picture, analysis)});
     }
   }
@@ -125,11 +128,11 @@ Window critical_window(const NyquistPicture& picture, const std::vector<KeyPoint
     }
   }
   const bool has_stable = std::any_of(points.begin(), points.end(), [](const KeyPoint& point) {
-    return point.mark == MarkKind::stable;
+    return point.mark == stable_mark;
   });
-  const auto is_wanted = [&](MarkKind mark) {
-    return mark == MarkKind::stable || mark == MarkKind::exact_frequency ||
-           (mark == MarkKind::unstable && !has_stable);
+  const auto is_wanted = [&](Mark mark) {
+    return mark == stable_mark || mark == exact_frequency_mark ||
+           (mark == unstable_mark && !has_stable);
   };
   for (const KeyPoint& point : points) {
     if (is_wanted(point.mark)) shown.push_back(point.at);
@@ -150,35 +153,10 @@ Window critical_window(const NyquistPicture& picture, const std::vector<KeyPoint
 
 // ---- marks on the curves ------------------------------------------------------------------------
 
-struct CurveMark {
+/// A point of a curve that may be marked.
+struct Candidate {
   Complex at;
   std::string text;
-};
-
-bool is_clear(const Complex& place, const std::vector<Complex>& taken, double distance) {
-  return std::none_of(taken.begin(), taken.end(),
-                      [&](const Complex& other) { return std::abs(place - other) < distance; });
-}
-
-/// Takes candidates in their order if they lie in the window with room around them.
-class MarkChooser {
- public:
-  MarkChooser(const Window& window, std::vector<Complex> taken)
-      : window_(window), taken_(std::move(taken)) {}
-
-  void offer(const Complex& at, const std::string& text, std::vector<CurveMark>& marks) {
-    constexpr double room = 48.0;  // pixels
-    constexpr double margin = 14.0;
-    if (!is_finite(at) || !window_.holds(at, -margin)) return;
-    const Complex place = window_.on_paper(at);
-    if (!is_clear(place, taken_, room)) return;
-    taken_.push_back(place);
-    marks.push_back({at, text});
-  }
-
- private:
-  const Window& window_;
-  std::vector<Complex> taken_;
 };
 
 /// 1, 2, 5, 3, 1.5 and 7 times powers of ten, the roundest first.
@@ -190,31 +168,32 @@ std::vector<double> round_numbers() {
   return numbers;
 }
 
-std::vector<CurveMark> frequency_marks(const NyquistPicture& picture, MarkChooser& chooser) {
-  std::vector<CurveMark> marks;
-  const bool in_hertz = !picture.is_normalized;
+/// The roundest first, of L.
+std::vector<Candidate> frequencies(const NyquistPicture& picture) {
+  std::vector<Candidate> candidates;
   for (const double number : round_numbers()) {
-    const double frequency = in_hertz ? turn * number : number;
-    const std::string text = significant(number, label_digits);
-    chooser.offer(loop_at(picture.analyses.front().loop, frequency),
-                  in_hertz ? text + " Hz" : text + " ω_n", marks);
+    const double frequency = picture.is_normalized ? number : turn * number;
+    candidates.push_back(
+        {loop_at(picture.analyses.front().loop, frequency),
+         significant(number, label_digits) + (picture.is_normalized ? " ω_n" : " Hz")});
   }
-  return marks;
+  return candidates;
 }
 
-std::vector<CurveMark> amplitude_marks(const DescribingAnalysis& analysis, MarkChooser& chooser) {
+/// The most telling first, of −1/N.
+std::vector<Candidate> amplitudes(const DescribingAnalysis& analysis) {
   const AmplitudeScale scale = scale_of(analysis.nonlinearity);
   std::vector<double> numbers = {2.0, 1.5, 1.2, 5.0, 1.1, 3.0, 1.0, 1.05, 10.0, 1.02, 1.01, 0.8};
   if (!scale.is_relative) numbers = round_numbers();
-  std::vector<CurveMark> marks;
+  std::vector<Candidate> candidates;
   for (const double number : numbers) {
     const double amplitude = number * scale.unit;
     if (amplitude <= scale.least) continue;
-    const std::string unit = scale.is_relative ? std::string(" ") + scale.name : "";
-    chooser.offer(inverse_gain(analysis.nonlinearity, amplitude),
-                  significant(number, label_digits) + unit, marks);
+    candidates.push_back({inverse_gain(analysis.nonlinearity, amplitude),
+                          significant(number, label_digits) +
+                              (scale.is_relative ? std::string(" ") + scale.name : "")});
   }
-  return marks;
+  return candidates;
 }
 
 // ---- the drawing --------------------------------------------------------------------------------
@@ -222,7 +201,7 @@ std::vector<CurveMark> amplitude_marks(const DescribingAnalysis& analysis, MarkC
 struct DrawnCurve {
   Layer layer;
   Trace trace;
-  std::vector<CurveMark> marks = {};
+  std::vector<Candidate> marks;
 };
 
 /// The unit of the amplitude marks.
@@ -246,13 +225,14 @@ std::vector<DrawnCurve> traced_curves(const NyquistPicture& picture, const Windo
                                      Layer{.colour = "#cc79a7", .dashes = "12,3,3,3"}};
   const TransferFunction& loop = picture.analyses.front().loop;
   std::vector<DrawnCurve> curves = {
-      {{.name = "L(jω)", .colour = "#0072b2"}, traced_loop(loop, window)}};
+      {{.name = "L(jω)", .colour = "#0072b2"}, traced_loop(loop, window), frequencies(picture)}};
   for (std::size_t i = 0; i < picture.analyses.size(); ++i) {
     const DescribingAnalysis& analysis = picture.analyses[i];
     Layer layer = inverse_styles[i % inverse_styles.size()];
     layer.name =
         "−1/N(A)" + distinction(picture, analysis) + meaning_of(analysis, picture.is_normalized);
-    curves.push_back({std::move(layer), traced_inverse_gain(analysis.nonlinearity, window)});
+    curves.push_back({std::move(layer), traced_inverse_gain(analysis.nonlinearity, window),
+                      amplitudes(analysis)});
   }
   for (DrawnCurve& curve : curves) {
     constexpr double outside = 240.0;
@@ -265,19 +245,6 @@ std::vector<DrawnCurve> traced_curves(const NyquistPicture& picture, const Windo
     }
   }
   return curves;
-}
-
-void choose_marks(const NyquistPicture& picture, const Window& window,
-                  const std::vector<KeyPoint>& points, std::vector<DrawnCurve>& curves) {
-  std::vector<Complex> taken = {window.on_paper(0.0)};  // where unnumbered marks crowd
-  for (const KeyPoint& point : points) {
-    if (is_finite(point.at)) taken.push_back(window.on_paper(point.at));
-  }
-  MarkChooser chooser(window, taken);
-  for (std::size_t i = 0; i < picture.analyses.size(); ++i) {
-    curves[i + 1].marks = amplitude_marks(picture.analyses[i], chooser);
-  }
-  curves[0].marks = frequency_marks(picture, chooser);
 }
 
 /// The curve's visible points on paper, not too close.
@@ -306,23 +273,8 @@ MapCurve arrow_of(const PaperLine& seen, const Window& window) {
   return outline;
 }
 
-Mark shape_of(MarkKind mark) {
-  switch (mark) {
-    case MarkKind::stable:
-      return Mark::disc;
-    case MarkKind::unstable:
-      return Mark::circle;
-    case MarkKind::exact_frequency:
-      return Mark::diamond;
-    case MarkKind::exact_amplitude:
-      break;
-  }
-  return Mark::open_diamond;
-}
-
 Layer layer_of(const KeyPoint& point, const Window& window) {
-  Layer layer{
-      .kind = LayerKind::marks, .name = point.legend, .mark = shape_of(point.mark), .size = 1.2};
+  Layer layer{.kind = LayerKind::marks, .name = point.legend, .mark = point.mark, .size = 1.2};
   if (is_finite(point.at) && window.holds(point.at)) {
     layer.points = {{point.at.real(), point.at.imag()}};
   } else {
@@ -331,30 +283,50 @@ Layer layer_of(const KeyPoint& point, const Window& window) {
   return layer;
 }
 
-void add_texts(const std::vector<KeyPoint>& points, const std::vector<DrawnCurve>& curves,
+MapPoint map_point(const Complex& point) { return {point.real(), point.imag()}; }
+
+/// Adds the marks of the curves that have room around them, and all texts.
+void add_marks(const std::vector<KeyPoint>& points, const std::vector<DrawnCurve>& curves,
                const Window& window, Panel& panel) {
   std::vector<PaperLine> lines;
-  for (const DrawnCurve& curve : curves) {
-    lines.push_back(seen_of(curve, window));
-    for (const CurveMark& mark : curve.marks) lines.push_back({window.on_paper(mark.at)});
-  }
+  for (const DrawnCurve& curve : curves) lines.push_back(seen_of(curve, window));
+  std::vector<Complex> taken = {window.on_paper(0.0)};  // where unnumbered marks crowd
   for (const KeyPoint& point : points) {
-    if (is_finite(point.at)) lines.push_back({window.on_paper(point.at)});
+    if (!is_finite(point.at)) continue;
+    taken.push_back(window.on_paper(point.at));
+    lines.push_back({taken.back()});
   }
   TextPlacer placer(lines, window.size.imag());
-  const auto add = [&](const Complex& at, PlotText text) {
-    if (!is_finite(at) || !window.holds(at)) return;
+  const auto add_text = [&](const Complex& at, PlotText text) {
     const auto place = placer.beside(window.on_paper(at), text.text, text.size, text.is_bold);
-    if (!place) return;
-    const Complex centre = window.from_paper(*place);
-    text.at = {centre.real(), centre.imag()};
+    if (!place) return false;
+    text.at = map_point(window.from_paper(*place));
     panel.texts.push_back(std::move(text));
+    return true;
   };
-  for (const KeyPoint& point : points) add(point.at, {.text = point.label, .is_bold = true});
-  for (const DrawnCurve& curve : curves) {
-    for (const CurveMark& mark : curve.marks) {
-      add(mark.at, {.text = mark.text, .colour = curve.layer.colour, .size = 0.8});
+  for (const KeyPoint& point : points) {
+    if (is_finite(point.at) && window.holds(point.at)) {
+      add_text(point.at, {.text = point.label, .is_bold = true});
     }
+  }
+  constexpr double room = 48.0;  // pixels
+  constexpr double margin = 14.0;
+  for (auto curve = curves.rbegin(); curve != curves.rend(); ++curve) {
+    Layer marks{.kind = LayerKind::marks, .colour = curve->layer.colour, .size = 0.45};
+    for (const Candidate& mark : curve->marks) {
+      if (!is_finite(mark.at) || !window.holds(mark.at, -margin)) continue;
+      const Complex place = window.on_paper(mark.at);
+      const bool is_clear = std::none_of(taken.begin(), taken.end(), [&](const Complex& other) {
+        return std::abs(place - other) < room;
+      });
+      if (!is_clear ||
+          !add_text(mark.at, {.text = mark.text, .colour = marks.colour, .size = 0.8})) {
+        continue;
+      }
+      taken.push_back(place);
+      marks.points.push_back(map_point(mark.at));
+    }
+    panel.layers.push_back(std::move(marks));
   }
 }
 
@@ -386,21 +358,15 @@ Plot nyquist_plot(const NyquistPicture& picture) {
                           .width = 0.8,
                           .points = joined({{{*panel.x.low, 0.0}, {*panel.x.high, 0.0}},
                                             {{0.0, *panel.y.low}, {0.0, *panel.y.high}}})});
-  std::vector<DrawnCurve> curves = traced_curves(picture, window);
-  choose_marks(picture, window, points, curves);
+  const std::vector<DrawnCurve> curves = traced_curves(picture, window);
   for (const DrawnCurve& curve : curves) {
-    Layer marks{.kind = LayerKind::marks, .colour = curve.layer.colour, .size = 0.45};
-    for (const CurveMark& mark : curve.marks) {
-      marks.points.push_back({mark.at.real(), mark.at.imag()});
-    }
     if (!curve.layer.points.empty()) panel.layers.push_back(curve.layer);
-    panel.layers.push_back(std::move(marks));
     panel.layers.push_back({.kind = LayerKind::area,
                             .colour = curve.layer.colour,
                             .points = arrow_of(seen_of(curve, window), window)});
   }
   for (const KeyPoint& point : points) panel.layers.push_back(layer_of(point, window));
-  add_texts(points, curves, window, panel);
+  add_marks(points, curves, window, panel);
   const bool has_exact = std::any_of(picture.exact.begin(), picture.exact.end(), is_drawn);
   return plot_of(picture.title,
                  std::string("cycles are predicted where L(jω) = −1/N(A)") +

@@ -217,13 +217,13 @@ class PhasePanel {
         line_of(pieces, motor_at, nullptr));
     if (drawn.role != MotionRole::subject) return;
     ++subjects;
-    ImpactMarks impacts(x_.high - x_.low, y_.high - y_.low);
+    MapCurve impacts;
     for (const DrawnPiece& piece : pieces) {
       if (!piece.ends_with_impact) continue;
-      impacts.add(load_at(piece.points.back()));
-      impacts.add(motor_at(piece.points.back()));
+      impacts.push_back(load_at(piece.points.back()));
+      impacts.push_back(motor_at(piece.points.back()));
     }
-    impacts.draw(drawn.is_cycle ? 0.8 : 0.5, panel);
+    panel.layers.push_back(impact_marks(impacts, x_, y_, drawn.is_cycle ? 0.8 : 0.5));
   }
 
   /// Marks of the starts by what they lead to, and the borders between them.

@@ -134,12 +134,12 @@ class TimeColumn {
     drawn.layers.push_back(layer_of(reference_style, over_time(reference, true)));
     drawn.layers.push_back(layer_of(load_style, over_time(load)));
     drawn.layers.push_back(layer_of(motor_style, over_time(motor)));
-    ImpactMarks impacts(*x_.high - from_, range.high - range.low);
+    MapCurve impacts;
     for (const DrawnPiece& piece : response_.pieces) {
       const DrawnPoint& last = piece.points.back();
-      if (piece.ends_with_impact && last.time >= from_) impacts.add({last.time, motor(last)});
+      if (piece.ends_with_impact && last.time >= from_) impacts.push_back({last.time, motor(last)});
     }
-    impacts.draw(0.45, drawn);
+    drawn.layers.push_back(impact_marks(impacts, {from_, *x_.high}, range, 0.45));
     return drawn;
   }
 
