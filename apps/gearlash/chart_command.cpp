@@ -55,7 +55,8 @@ void require_branches(const GridTask& task) {
 }
 
 /// Draws the bifurcation pictures.
-ExitStatus draw_branches(const GridTask& task, const std::vector<Plot>& plots, LimitedWork& work) {
+ExitStatus draw_branches(const GridTask& task, const std::vector<PlotFile>& plots,
+                         LimitedWork& work) {
   BifurcationDiagram diagram;
   {
     TerminalProgress progress(work, "Branches");
@@ -63,14 +64,12 @@ ExitStatus draw_branches(const GridTask& task, const std::vector<Plot>& plots, L
   }
   Extras extras;
   if (work.is_stopped()) end_work(work, ExitStatus::undecided, "branches are missing");
-  for (const Plot& plot : plots) {
-    extras.make([&] {
-      write_file(plot.file,
-                 draw_bifurcations(diagram, task.grid, task.quantity, task.angle, plot.format));
-    });
+  for (const PlotFile& plot : plots) {
+    extras.make(
+        [&] { write_plot(plot, bifurcation_plot(diagram, task.grid, task.quantity, task.angle)); });
   }
   std::string made;
-  for (const Plot& plot : plots) made += (made.empty() ? "" : ", ") + plot.file;
+  for (const PlotFile& plot : plots) made += (made.empty() ? "" : ", ") + plot.file;
   extras.print(fmt::format("{}: {} branches, {} borders\n", made, diagram.branches.size(),
                            diagram.borders.size()));
   return extras.status(diagram.is_complete ? ExitStatus::done : ExitStatus::undecided);
@@ -81,9 +80,9 @@ ExitStatus run(const ChartOptions& options, const Provenance& provenance) {
   if (!options.curves.empty()) axes.push_back({"--curves", options.curves});
   axes.push_back({"--x", options.x});
   GridTask task = read_grid_task(options.grid, axes, "chart", {"curves", "bifurcation"});
-  std::vector<Plot> branches;
-  std::vector<Plot> curves;
-  for (const Plot& plot : task.plots) {
+  std::vector<PlotFile> branches;
+  std::vector<PlotFile> curves;
+  for (const PlotFile& plot : task.plots) {
     (plot.kind == "bifurcation" ? branches : curves).push_back(plot);
   }
   if (!branches.empty()) require_branches(task);
@@ -93,9 +92,7 @@ ExitStatus run(const ChartOptions& options, const Provenance& provenance) {
     if ((curves.empty() && task.table.empty()) || status != ExitStatus::done) return status;
   }
   task.plots = std::move(curves);
-  return make_grid_files(task, work, provenance, [&](const GridTable& table, PictureFormat format) {
-    return draw_line_chart(chart_of(table, task.quantity), format);
-  });
+  return make_grid_files(task, work, provenance, chart_plot);
 }
 
 }  // namespace

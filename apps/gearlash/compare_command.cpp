@@ -126,7 +126,7 @@ double read_step(const std::string& text) {
   return step;
 }
 
-CompareTask read_compare_task(const CompareOptions& options, const std::vector<Plot>& plots,
+CompareTask read_compare_task(const CompareOptions& options, const std::vector<PlotFile>& plots,
                               Faults& faults) {
   CompareTask task;
   faults.require_choice("--format", options.format, {"text", "json"});
@@ -152,7 +152,7 @@ std::string printed(const ComparisonReport& report, const CompareOptions& option
 
 ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
   Faults faults;
-  const std::vector<Plot> plots = read_plots(options.plots, {"time"}, faults);
+  const std::vector<PlotFile> plots = read_plots(options.plots, {"time"}, faults);
   const Limits limits = read_limits(options.limits, faults);
   CompareTask task = read_compare_task(options, plots, faults);
   faults.require_none();
@@ -171,8 +171,8 @@ ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
                   [](const ComparedDrive& one) { return one.answer && is_decided(*one.answer); });
   const ExitStatus status = end_work(work, decided ? ExitStatus::done : ExitStatus::undecided,
                                      "searches are not complete, or not begun");
-  for (const Plot& plot : plots) {
-    extras.make([&] { write_file(plot.file, draw_comparison(task.report, plot.format)); });
+  for (const PlotFile& plot : plots) {
+    extras.make([&] { write_plot(plot, comparison_plot(task.report)); });
   }
   return extras.status(status);
 }

@@ -87,8 +87,7 @@ const char* title_of(drive::DescribedPart part) {
   }
 }
 
-std::string draw(const DescribeReport& report, const DescribeOptions& options,
-                 PictureFormat format) {
+Plot plot_of(const DescribeReport& report, const DescribeOptions& options) {
   const auto drawn = analyses_to_draw(report.analyses, options);
   if (drawn.empty()) {
     throw InvalidInput(
@@ -97,18 +96,17 @@ std::string draw(const DescribeReport& report, const DescribeOptions& options,
              : Fault{"--part", shown(options.part),
                      "must be a part that the drive has inside its loop", ""}});
   }
-  return draw_nyquist({.title = title_of(drawn.front().part),
+  return nyquist_plot({.title = title_of(drawn.front().part),
                        .analyses = drawn,
                        .exact = drive::exact_motions(report.answer),
                        .angle = report.angle,
-                       .is_normalized = report.is_normalized},
-                      format);
+                       .is_normalized = report.is_normalized});
 }
 
 ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
   Faults faults;
   faults.require_choice("--format", options.format, {"text", "json"});
-  const std::vector<Plot> plots = read_plots(options.plots, {"nyquist"}, faults);
+  const std::vector<PlotFile> plots = read_plots(options.plots, {"nyquist"}, faults);
   check_part(options, faults);
   const std::optional<WrittenDrive> written = resolve_drive(options.servo, files_of(plots), faults);
   const Limits limits = read_limits(options.limits, faults);
@@ -125,8 +123,8 @@ ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
   if (!decided) report_lines("the exact answer is undecided");
   const ExitStatus status = end_work(work, decided ? ExitStatus::done : ExitStatus::undecided,
                                      "the search is not complete");
-  for (const Plot& plot : plots) {
-    extras.make([&] { write_file(plot.file, draw(report, options, plot.format)); });
+  for (const PlotFile& plot : plots) {
+    extras.make([&] { write_plot(plot, plot_of(report, options)); });
   }
   return extras.status(status);
 }

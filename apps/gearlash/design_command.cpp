@@ -149,7 +149,7 @@ std::vector<Axis> read_axes(const DesignOptions& options, const Drive& drive, Fa
 ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
   Faults faults;
   check_options(options, faults);
-  const std::vector<Plot> plots = read_plots(options.plots, {"region"}, faults);
+  const std::vector<PlotFile> plots = read_plots(options.plots, {"region"}, faults);
   const std::optional<WrittenDrive> written = resolve_drive(options.servo, files_of(plots), faults);
   const Target target = collect_target(options.target, written ? &written->drive : nullptr, faults);
   if (!written) faults.require_none();
@@ -176,12 +176,12 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
   const ExitStatus status = end_work(work, ExitStatus::done, unknown_text(known, axes.size()));
   if (plots.empty()) return extras.status(status);
   const GridTable table = work_out(region, work, provenance).table;
-  for (const Plot& plot : plots) {
+  for (const PlotFile& plot : plots) {
     extras.make([&] {
       if (work.is_stopped()) {
         throw OutputError(plot.file + ": not drawn: the work was stopped before");
       }
-      write_file(plot.file, draw_grid_map(table, region.quantity, plot.format));
+      write_plot(plot, map_plot(table, region.quantity));
     });
   }
   return extras.status(status);

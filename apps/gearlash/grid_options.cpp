@@ -11,6 +11,7 @@
 #include "base/progress_part.hpp"
 #include "base/range_check.hpp"
 #include "machine_faults.hpp"
+#include "picture/gnuplot_renderer.hpp"
 #include "picture/grid_map.hpp"
 #include "question/family/evaluation.hpp"
 #include "question/map/grid_pieces.hpp"
@@ -341,10 +342,10 @@ WorkedOut work_out(const GridTask& task, LimitedWork& work, const Provenance& pr
 }
 
 ExitStatus make_grid_files(const GridTask& task, LimitedWork& work, const Provenance& provenance,
-                           const GridPicture& draw) {
+                           GridPlot plot) {
   const std::unique_ptr<OutputFile> output = opened(task.table);
   std::vector<std::unique_ptr<OutputFile>> pictures;
-  for (const Plot& plot : task.plots) pictures.push_back(opened(plot.file));
+  for (const PlotFile& file : task.plots) pictures.push_back(opened(file.file));
   WorkedOut done;
   Extras extras;
   std::string made;
@@ -374,7 +375,7 @@ ExitStatus make_grid_files(const GridTask& task, LimitedWork& work, const Proven
   }
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     extras.make([&] {
-      pictures[i]->write(draw(table, task.plots[i].format));
+      pictures[i]->write(draw(plot(table, task.quantity), task.plots[i].format));
       commit(*pictures[i]);
     });
   }

@@ -52,7 +52,7 @@ struct GridTask {
   std::string target_text{};
   std::optional<MapPoint> present{};  ///< where the drive lies on a map with a target
   std::string table{};                ///< file in .csv, .json or .nc; empty: none
-  std::vector<Plot> plots{};
+  std::vector<PlotFile> plots{};
   Limits limits{};
 };
 
@@ -90,12 +90,12 @@ struct WorkedOut {
 /// The grid's answers and its borders, with progress. What a stop leaves out is unknown.
 WorkedOut work_out(const GridTask& task, LimitedWork& work, const Provenance& provenance);
 
-using GridPicture = std::function<std::string(const GridTable&, PictureFormat)>;
+using GridPlot = Plot (*)(const GridTable& table, Quantity quantity);
 
-/// Evaluates the grid, writes its table, draws its pictures with `draw` and prints a summary. A
+/// Evaluates the grid, writes its table, draws its pictures of `plot` and prints a summary. A
 /// picture that fails does not withhold the rest. Points that a limit leaves out are undecided in
 /// the files; a signal leaves all files as they were.
 ExitStatus make_grid_files(const GridTask& task, LimitedWork& work, const Provenance& provenance,
-                           const GridPicture& draw);
+                           GridPlot plot);
 
 }  // namespace gearlash::cli

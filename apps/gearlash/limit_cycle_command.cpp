@@ -11,9 +11,8 @@
 #include "output/answer_report.hpp"
 #include "output/change_report.hpp"
 #include "output/output_file.hpp"
+#include "picture/answer_bars.hpp"
 #include "picture/answer_picture.hpp"
-#include "picture/ceiling_picture.hpp"
-#include "picture/tornado.hpp"
 #include "plot_option.hpp"
 #include "question/analyse.hpp"
 #include "question/change/derivatives.hpp"
@@ -56,38 +55,31 @@ struct Result {
   AnswerReport report{};
 };
 
-std::string draw_tornado(const Result& result, PictureFormat format) {
-  const BarChart chart = tornado_of(*result.report.sensitivity);
-  if (chart.bars.empty()) {
-    const std::string& why = result.report.sensitivity->reason;
-    throw InvalidInput(
-        {{"--plot", "tornado",
-          "must be left out: this drive has no sensitivities" + (why.empty() ? why : "; " + why),
-          ""}});
-  }
-  return draw_bar_chart(chart, format);
+Plot tornado_of(const Result& result) {
+  if (std::optional<Plot> plot = tornado_plot(*result.report.sensitivity)) return *plot;
+  const std::string& why = result.report.sensitivity->reason;
+  throw InvalidInput(
+      {{"--plot", "tornado",
+        "must be left out: this drive has no sensitivities" + (why.empty() ? why : "; " + why),
+        ""}});
 }
 
-std::string draw_ceiling(const Result& result, PictureFormat format) {
+Plot ceiling_of(const Result& result) {
   const Ceiling& ceiling = *result.report.answer.ceiling;
   if (ceiling.terms.empty()) {
     const std::string why =
         ceiling.load ? "this drive has no gap, dry friction or encoder" : ceiling.reason;
     throw InvalidInput({{"--plot", "ceiling", "must be left out: " + why, ""}});
   }
-  return draw_bar_chart(ceiling_bars(result.report), format);
+  return ceiling_plot(result.report);
 }
 
-std::string draw_phase(const Result& result, PictureFormat format, LimitedWork& work) {
+Plot plot_of(const Result& result, const std::string& kind, LimitedWork& work) {
+  if (kind == "tornado") return tornado_of(result);
+  if (kind == "ceiling") return ceiling_of(result);
+  if (kind == "time") return time_plot(response_picture(result.report, result.analysis));
   TerminalProgress progress(work, "Basins");
-  return draw_phase_plane(phase_picture(result.report, result.analysis, progress), format);
-}
-
-std::string draw(const Result& result, const Plot& plot, LimitedWork& work) {
-  if (plot.kind == "tornado") return draw_tornado(result, plot.format);
-  if (plot.kind == "ceiling") return draw_ceiling(result, plot.format);
-  if (plot.kind == "phase") return draw_phase(result, plot.format, work);
-  return draw_time_response(response_picture(result.report, result.analysis), plot.format);
+  return phase_plot(phase_picture(result.report, result.analysis, progress));
 }
 
 /// The parameters of the margins; none: the usual ones.
@@ -177,7 +169,7 @@ std::string printed(const Result& result, const LimitCycleOptions& options) {
 ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
   Faults faults;
   faults.require_choice("--format", options.format, {"text", "json"});
-  const std::vector<Plot> plots =
+  const std::vector<PlotFile> plots =
       read_plots(options.plots, {"phase", "time", "tornado", "ceiling"}, faults);
   const std::optional<WrittenDrive> written = resolve_drive(options.servo, files_of(plots), faults);
   const Limits limits = read_limits(options.limits, faults);
@@ -208,8 +200,8 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
   const ExitStatus status =
       end_work(work, decided ? ExitStatus::done : ExitStatus::undecided,
                decided ? "margins or bounds are missing" : headline(result.report));
-  for (const Plot& plot : plots) {
-    extras.make([&] { write_file(plot.file, draw(result, plot, work)); });
+  for (const PlotFile& plot : plots) {
+    extras.make([&] { write_plot(plot, plot_of(result, plot.kind, work)); });
   }
   return extras.status(status);
 }

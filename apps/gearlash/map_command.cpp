@@ -34,9 +34,7 @@ ExitStatus run(const MapOptions& options, const Provenance& provenance) {
   require_an_area(task.grid, {"--y", "--x"}, faults);
   faults.require_none();
   LimitedWork work(task.limits);
-  return make_grid_files(task, work, provenance, [&](const GridTable& table, PictureFormat format) {
-    return draw_grid_map(table, task.quantity, format);
-  });
+  return make_grid_files(task, work, provenance, map_plot);
 }
 
 }  // namespace

@@ -3,13 +3,15 @@
 #include <algorithm>
 
 #include "input/section_reader.hpp"
+#include "output/output_file.hpp"
+#include "picture/gnuplot_renderer.hpp"
 
 namespace gearlash::cli {
-std::vector<Plot> read_plots(const std::vector<std::string>& typed,
-                             const std::vector<std::string>& kinds, Faults& faults) {
+std::vector<PlotFile> read_plots(const std::vector<std::string>& typed,
+                                 const std::vector<std::string>& kinds, Faults& faults) {
   std::vector<std::string> forms;
   for (const std::string& kind : kinds) forms.push_back(kind + "=FILE");
-  std::vector<Plot> plots;
+  std::vector<PlotFile> plots;
   for (const std::string& text : typed) {
     const std::size_t sign = text.find('=');
     const std::string kind = text.substr(0, sign);
@@ -26,15 +28,19 @@ std::vector<Plot> read_plots(const std::vector<std::string>& typed,
   return plots;
 }
 
-std::vector<FileUse> files_of(const std::vector<Plot>& plots) {
+std::vector<FileUse> files_of(const std::vector<PlotFile>& plots) {
   std::vector<FileUse> files;
-  for (const Plot& plot : plots) files.push_back({"--plot", plot.file});
+  for (const PlotFile& plot : plots) files.push_back({"--plot", plot.file});
   return files;
 }
 
-bool has_kind(const std::vector<Plot>& plots, const std::string& kind) {
+bool has_kind(const std::vector<PlotFile>& plots, const std::string& kind) {
   return std::any_of(plots.begin(), plots.end(),
-                     [&](const Plot& plot) { return plot.kind == kind; });
+                     [&](const PlotFile& plot) { return plot.kind == kind; });
+}
+
+void write_plot(const PlotFile& file, const Plot& plot) {
+  write_file(file.file, draw(plot, file.format));
 }
 
 Option* add_plot_option(Command& command, std::vector<std::string>& typed,

@@ -5,11 +5,12 @@
 #include <vector>
 
 #include "picture/picture.hpp"
+#include "picture/plot.hpp"
 #include "servo_options.hpp"
 
 namespace gearlash::cli {
 
-struct Plot {
+struct PlotFile {
   std::string kind;
   std::string file;
   PictureFormat format = PictureFormat::svg;
@@ -17,13 +18,16 @@ struct Plot {
 
 /// Reads every --plot. Faults: no KIND=FILE; a KIND not in `kinds` (with the nearest one); an
 /// extension other than .svg, .png or .pdf.
-std::vector<Plot> read_plots(const std::vector<std::string>& typed,
-                             const std::vector<std::string>& kinds, Faults& faults);
+std::vector<PlotFile> read_plots(const std::vector<std::string>& typed,
+                                 const std::vector<std::string>& kinds, Faults& faults);
 
 /// The files that they name, for resolve_drive().
-std::vector<FileUse> files_of(const std::vector<Plot>& plots);
+std::vector<FileUse> files_of(const std::vector<PlotFile>& plots);
 
-bool has_kind(const std::vector<Plot>& plots, const std::string& kind);
+bool has_kind(const std::vector<PlotFile>& plots, const std::string& kind);
+
+/// Draws the plot into the file. Throws OutputError.
+void write_plot(const PlotFile& file, const Plot& plot);
 
 /// Adds the repeatable option. `kinds` describes what each kind draws.
 Option* add_plot_option(Command& command, std::vector<std::string>& typed,

@@ -228,11 +228,6 @@ MotionPicture picture_of(const SimulateRequest& task, const Motion& motion,
           .hunting_period = hunting.period};
 }
 
-std::string draw(const MotionPicture& picture, const Plot& plot) {
-  return plot.kind == "phase" ? draw_phase_plane(picture, plot.format)
-                              : draw_time_response(picture, plot.format);
-}
-
 // ---- the command --------------------------------------------------------------------------------
 
 void write_table(const MotionReport& report, const SimulateOptions& options, LimitedWork& work) {
@@ -253,7 +248,7 @@ void write_table(const MotionReport& report, const SimulateOptions& options, Lim
 ExitStatus run(const SimulateOptions& options, const Provenance& provenance) {
   Faults faults;
   faults.require_choice("--format", options.format, {"csv", "json"});
-  const std::vector<Plot> plots = read_plots(options.plots, {"time", "phase"}, faults);
+  const std::vector<PlotFile> plots = read_plots(options.plots, {"time", "phase"}, faults);
   std::vector<FileUse> outputs = files_of(plots);
   outputs.insert(outputs.begin(), {"--output", options.output});
   const Limits limits = read_limits(options.limits, faults);
@@ -279,10 +274,10 @@ ExitStatus run(const SimulateOptions& options, const Provenance& provenance) {
       work, is_whole ? ExitStatus::done : ExitStatus::undecided,
       is_whole ? "the end of the table is missing" : "the motion is known up to " + reached);
   std::optional<MotionPicture> picture;
-  for (const Plot& plot : plots) {
+  for (const PlotFile& plot : plots) {
     extras.make([&] {
       if (!picture) picture = picture_of(task, motion, options, work);
-      write_file(plot.file, draw(*picture, plot));
+      write_plot(plot, plot.kind == "phase" ? phase_plot(*picture) : time_plot(*picture));
     });
   }
   return extras.status(status);

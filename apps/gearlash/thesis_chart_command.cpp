@@ -13,6 +13,7 @@
 #include "machine_faults.hpp"
 #include "output/columns.hpp"
 #include "output/output_file.hpp"
+#include "picture/gnuplot_renderer.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 #include "thesis/chart_reading.hpp"
@@ -47,15 +48,15 @@ int read_figure_number(const std::string& text) {
   refuse("N", text, "must be the number of a figure: " + alternatives(names));
 }
 
-LineChart figure_chart(int number, Progress& progress = no_progress()) {
+Plot figure_plot(int number, Progress& progress = no_progress()) {
   for (const auto& figure : thesis::thesis_phase_figures()) {
-    if (figure.number == number) return chart_of(figure);
+    if (figure.number == number) return plot_of(figure);
   }
   const auto& figures = thesis::thesis_figures();
   const auto figure = std::find_if(figures.begin(), figures.end(), [&](const auto& candidate) {
     return candidate.number == number;
   });
-  return chart_of(*figure, progress);
+  return plot_of(*figure, progress);
 }
 
 // --- chart-reading ---
@@ -135,7 +136,7 @@ void add_thesis_figure(Command& thesis, Action& action) {
             faults.collect([&] { return picture_format("--output", file); }, PictureFormat::svg);
         faults.require_writable({{"--output", file}});
         faults.require_none();
-        write_file(file, draw_line_chart(figure_chart(number), format));
+        write_file(file, draw(figure_plot(number), format));
         return ExitStatus::done;
       });
 }
@@ -177,9 +178,9 @@ void add_thesis_all(Command& thesis, Action& action) {
         std::size_t drawn = 0;
         while (drawn < numbers.size()) {
           ProgressPart part(progress, drawn, numbers.size());
-          const LineChart chart = figure_chart(numbers[drawn], part);
+          const Plot plot = figure_plot(numbers[drawn], part);
           if (!work.go_on()) break;
-          write_file(file(drawn++), draw_line_chart(chart, PictureFormat::svg));
+          write_file(file(drawn++), draw(plot, PictureFormat::svg));
         }
         return end_work(work, ExitStatus::done,
                         fmt::format("{} of {} figures are drawn", drawn, numbers.size()));

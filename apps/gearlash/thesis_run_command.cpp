@@ -180,7 +180,7 @@ struct RunOptions {
 
 ExitStatus run_charts(const RunOptions& options) {
   Faults faults;
-  const std::vector<Plot> plots = read_plots(options.plots, {"errors"}, faults);
+  const std::vector<PlotFile> plots = read_plots(options.plots, {"errors"}, faults);
   faults.require_distinct({}, files_of(plots));
   faults.require_writable(files_of(plots));
   const Limits limits = read_limits(options.limits, faults);
@@ -192,8 +192,8 @@ ExitStatus run_charts(const RunOptions& options) {
   const ExitStatus status = end_work(
       work, ExitStatus::done,
       fmt::format("{} of {} servos are run", runs.errors.size(), thesis::charted_servos().size()));
-  for (const Plot& plot : plots) {
-    extras.make([&] { write_file(plot.file, draw_cell_map(error_map(runs.errors), plot.format)); });
+  for (const PlotFile& plot : plots) {
+    extras.make([&] { write_plot(plot, thesis::error_plot(runs.errors)); });
   }
   return extras.status(status);
 }

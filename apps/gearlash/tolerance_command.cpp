@@ -56,7 +56,7 @@ constexpr std::pair<const char*, TolerancePicture> pictures[] = {
     {"yield", TolerancePicture::yield},
     {"indices", TolerancePicture::indices}};
 
-TolerancePicture picture_of(const Plot& plot) {
+TolerancePicture picture_of(const PlotFile& plot) {
   return std::find_if(std::begin(pictures), std::end(pictures),
                       [&](const auto& one) { return plot.kind == one.first; })
       ->second;
@@ -70,7 +70,7 @@ struct ToleranceRequest {
   double error = 0.0;  ///< asked for; 0: none
   double yield = 0.0;  ///< demanded; 0: none
   WorstSearch worst_search;
-  std::vector<Plot> plots;
+  std::vector<PlotFile> plots;
   Limits limits;
 };
 
@@ -222,12 +222,12 @@ ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
   Extras extras;
   extras.print(options.format == "json" ? tolerance_json(report) : tolerance_text(report));
   const ExitStatus status = end_work(work, ExitStatus::done, unknown_text(report));
-  for (const Plot& plot : task.plots) {
+  for (const PlotFile& plot : task.plots) {
     extras.make([&] {
       if (report.sensitivities.numbers.empty()) {
         throw OutputError(plot.file + ": not drawn: the work was stopped before");
       }
-      write_file(plot.file, draw_tolerances(report, picture_of(plot), plot.format));
+      write_plot(plot, tolerance_plot(report, picture_of(plot)));
     });
   }
   return extras.status(status);

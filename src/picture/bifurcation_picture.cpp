@@ -3,36 +3,30 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/extent.hpp"
-#include "picture/gnuplot.hpp"
-#include "picture/gnuplot_script.hpp"
+#include "picture/curve_panel.hpp"
 #include "picture/grid_words.hpp"
 
 namespace gearlash {
 namespace {
 
-struct Style {
-  const char* line;
-  const char* name;
-};
-
-Style style_of(Stability stability) {
+Layer style_of(Stability stability) {
   switch (stability) {
     case Stability::stable:
-      return {"linewidth 2.6 linecolor rgb '#0072b2'", "stable cycle"};
+      return {.name = "stable cycle", .colour = "#0072b2", .width = 2.6};
     case Stability::neutral:
-      return {"linewidth 1.6 dashtype (2,2) linecolor rgb '#009e73'", "neutral cycle"};
+      return {.name = "neutral cycle", .colour = "#009e73", .width = 1.6, .dashes = "2,2"};
     case Stability::unstable:
-      return {"linewidth 1.6 dashtype (8,5) linecolor rgb '#d55e00'", "unstable cycle"};
+      return {.name = "unstable cycle", .colour = "#d55e00", .width = 1.6, .dashes = "8,5"};
   }
-  return {"", ""};
+  return {};
 }
 
 /// Empty for a quantity that branches do not have.
@@ -104,71 +98,57 @@ Scale scale_of(const BifurcationDiagram& diagram, const Grid& grid, Quantity qua
   return scale;
 }
 
-struct DrawnBranches {
-  std::string data;
-  std::vector<std::string> layers;
-  std::vector<std::string> names;
-
-  /// `title`: empty for a further part of something that is named already.
-  void add(const DataBlock& block, const std::string& name, const std::string& how,
-           const std::string& title) {
-    if (block.is_empty()) return;
-    data += block.text();
-    layers.push_back(fmt::format("${} using 1:2 with {} {}", name, how,
-                                 title.empty() ? "notitle" : "title " + quoted(title)));
-    if (!title.empty()) names.push_back(title);
-  }
-};
-
-void add_rest(const BifurcationDiagram& diagram, const Scale& scale, DrawnBranches& drawing) {
-  if (!is_amplitude(scale.quantity)) return;
-  DataBlock block("rest");
-  for (const Bounds& interval : diagram.rests) {
-    block.row(scale.parameter(interval.low), scale.foot);
-    block.row(scale.parameter(interval.high), scale.foot);
-    block.gap();
-  }
-  drawing.add(block, "rest", "lines linewidth 5 linecolor rgb '#8a8a8a'", "can come to rest");
+void add(Layer layer, Panel& panel) {
+  if (!layer.points.empty()) panel.layers.push_back(std::move(layer));
 }
 
-void add_branches(const BifurcationDiagram& diagram, const Scale& scale, DrawnBranches& drawing) {
+void add_rest(const BifurcationDiagram& diagram, const Scale& scale, Panel& panel) {
+  if (!is_amplitude(scale.quantity)) return;
+  Layer layer{.name = "can come to rest", .colour = "#8a8a8a", .width = 5.0};
+  for (const Bounds& interval : diagram.rests) {
+    append(
+        {{scale.parameter(interval.low), scale.foot}, {scale.parameter(interval.high), scale.foot}},
+        layer.points);
+  }
+  add(std::move(layer), panel);
+}
+
+void add_branches(const BifurcationDiagram& diagram, const Scale& scale, Panel& panel) {
   for (const Stability stability : {Stability::unstable, Stability::neutral, Stability::stable}) {
-    const std::string name = fmt::format("branch{}", static_cast<int>(stability));
-    DataBlock lines(name);
-    DataBlock marks(name + "_marks");  // a line of one point is invisible
+    Layer lines = style_of(stability);
+    Layer marks{.kind = LayerKind::marks,  // a line of one point is invisible
+                .colour = lines.colour,
+                .mark = stability == Stability::stable ? Mark::disc : Mark::circle,
+                .size = 0.7};
     for (const CycleBranch& branch : diagram.branches) {
       if (branch.stability != stability) continue;
+      append({}, lines.points);
       for (const CycleAt& point : branch.points) {
         const double value = scale.value(point);
         if (!std::isfinite(value)) continue;
-        lines.row(scale.parameter(point.parameter), std::max(value, scale.foot));
-        if (branch.points.size() == 1) marks.row(scale.parameter(point.parameter), value);
+        lines.points.push_back({scale.parameter(point.parameter), std::max(value, scale.foot)});
+        if (branch.points.size() == 1) marks.points.push_back(lines.points.back());
       }
-      lines.gap();
     }
-    const Style style = style_of(stability);
-    drawing.add(lines, name, fmt::format("lines {}", style.line), style.name);
-    drawing.add(marks, name + "_marks",
-                stability == Stability::stable
-                    ? "points pointtype 7 pointsize 0.7 linecolor rgb '#0072b2'"
-                    : "points pointtype 6 pointsize 0.7 linecolor rgb '#d55e00'",
-                "");
+    add(std::move(lines), panel);
+    add(std::move(marks), panel);
   }
 }
 
-void add_irregular(const BifurcationDiagram& diagram, const Scale& scale, DrawnBranches& drawing) {
+void add_irregular(const BifurcationDiagram& diagram, const Scale& scale, Panel& panel) {
   if (!is_amplitude(scale.quantity)) return;
-  DataBlock block("irregular");
+  Layer layer{.kind = LayerKind::marks,
+              .name = "motion that closes no cycle",
+              .mark = Mark::cross,
+              .size = 0.8};
   for (const IrregularAt& motion : diagram.irregular) {
     const double value =
         (scale.quantity == Quantity::amplitude ? motion.amplitude : motion.motor_amplitude) /
         scale.per_value;
-    if (std::isfinite(value)) {
-      block.row(scale.parameter(motion.parameter), std::max(value, scale.foot));
-    }
+    if (!std::isfinite(value)) continue;
+    layer.points.push_back({scale.parameter(motion.parameter), std::max(value, scale.foot)});
   }
-  drawing.add(block, "irregular", "points pointtype 2 pointsize 0.8 linecolor rgb '#000000'",
-              "motion that closes no cycle");
+  add(std::move(layer), panel);
 }
 
 /// Borders without those that another one of their word covers.
@@ -191,61 +171,51 @@ std::vector<const MarkedBorder*> distinct(const BifurcationDiagram& diagram, con
   return kept;
 }
 
-/// Open marks differ in shape, so that they are read without colour.
-struct Mark {
-  std::string_view word;
-  int type;  ///< gnuplot's
-};
-constexpr std::array known_marks = {Mark{"fold", 6},
-                                    Mark{"flip", 4},
-                                    Mark{"branching", 8},
-                                    Mark{"Neimark–Sacker", 12},
-                                    Mark{"grazing", 3},
-                                    Mark{"events change", 1},
-                                    Mark{"endless period", 13},
-                                    Mark{"loss of rest", 7},
-                                    Mark{"cycle is lost", 10},
-                                    Mark{"stability changes", 14}};
-
-int mark_of(const std::string& word) {
-  const auto* known = std::find_if(known_marks.begin(), known_marks.end(),
-                                   [&](const Mark& mark) { return mark.word == word; });
-  constexpr int other = 5;
-  return known == known_marks.end() ? other : known->type;
+/// Marks differ in shape, so that they are read without colour.
+Mark mark_of(const std::string& word) {
+  constexpr std::pair<std::string_view, Mark> marks[] = {
+      {"fold", Mark::circle},
+      {"flip", Mark::open_square},
+      {"branching", Mark::open_triangle},
+      {"Neimark–Sacker", Mark::open_diamond},
+      {"grazing", Mark::star},
+      {"events change", Mark::plus},
+      {"endless period", Mark::diamond},
+      {"loss of rest", Mark::disc},
+      {"cycle is lost", Mark::open_wedge},
+      {"stability changes", Mark::open_pentagon}};
+  for (const auto& [known, mark] : marks) {
+    if (known == word) return mark;
+  }
+  return Mark::square;
 }
 
 /// One legend entry for each word.
 void add_borders(const BifurcationDiagram& diagram, const Axis& axis, const Scale& scale,
-                 DrawnBranches& drawing) {
-  std::map<std::string, DataBlock> marks;
-  std::map<std::string, DataBlock> upright;
-  const auto block = [](std::map<std::string, DataBlock>& blocks, const std::string& word,
-                        const char* name) -> DataBlock& {
-    return blocks.try_emplace(word, fmt::format("{}{}", name, blocks.size())).first->second;
-  };
+                 Panel& panel) {
+  std::map<std::string, MapCurve> marks;
+  std::map<std::string, MapCurve> upright;
   for (const MarkedBorder* border : distinct(diagram, axis, scale)) {
     const double parameter = scale.parameter(border->parameter);
     if (!border->cycle) {
-      DataBlock& line = block(upright, border->word, "upright");
-      line.row(parameter, scale.foot);
-      line.row(parameter, scale.top);
-      line.gap();
+      append({{parameter, scale.foot}, {parameter, scale.top}}, upright[border->word]);
       continue;
     }
     // Rest has an amplitude, but no period.
     const double value = scale.value(*border->cycle);
     if (!std::isfinite(value) || (value == 0.0 && !is_amplitude(scale.quantity))) continue;
-    block(marks, border->word, "border").row(parameter, std::max(value, scale.foot));
+    marks[border->word].push_back({parameter, std::max(value, scale.foot)});
   }
-  for (const auto& [word, line] : upright) {
-    drawing.add(line, line.name(), "lines linewidth 1.4 dashtype (2,4) linecolor rgb '#555555'",
-                word);
+  for (const auto& [word, points] : upright) {
+    panel.layers.push_back(
+        {.name = word, .colour = "#555555", .width = 1.4, .dashes = "2,4", .points = points});
   }
   for (const auto& [word, points] : marks) {
-    drawing.add(points, points.name(),
-                fmt::format("points pointtype {} pointsize 1.4 linewidth 1.6 linecolor rgb 'black'",
-                            mark_of(word)),
-                word);
+    panel.layers.push_back({.kind = LayerKind::marks,
+                            .name = word,
+                            .mark = mark_of(word),
+                            .size = 1.4,
+                            .points = points});
   }
 }
 
@@ -259,33 +229,22 @@ std::string subtitle_of(const BifurcationDiagram& diagram, const Grid& grid) {
 
 bool has_branches(Quantity quantity) { return value_of({.period = 1.0}, quantity).has_value(); }
 
-std::string draw_bifurcations(const BifurcationDiagram& diagram, const Grid& grid,
-                              Quantity quantity, const AngleUnit& angle, PictureFormat format) {
+Plot bifurcation_plot(const BifurcationDiagram& diagram, const Grid& grid, Quantity quantity,
+                      const AngleUnit& angle) {
   const Axis& axis = grid.axes.front();
   const Scale scale = scale_of(diagram, grid, quantity, angle);
-  DrawnBranches drawing;
-  add_rest(diagram, scale, drawing);
-  add_branches(diagram, scale, drawing);
-  add_irregular(diagram, scale, drawing);
-  add_borders(diagram, axis, scale, drawing);
-  std::string labels;
-  if (drawing.layers.empty()) {
-    drawing.layers.emplace_back("1/0 notitle");
-    labels = "set label 2 'no cycle was found' at graph 0.5, graph 0.5 center\n";
-  }
-  const ChartAxis x = chart_axis(axis, grid.drive, angle);
-  const ChartAxis y{.label = label_of(quantity, grid, angle),
-                    .logarithmic = scale.is_logarithmic,
-                    .low = scale.foot,
-                    .high = scale.top};
-  const std::string title =
-      "Cycles over " + in_words(axis.path) + ": " + in_words(std::string(name_of(quantity)));
-  return run_gnuplot(terminal(format) + heading(title, subtitle_of(diagram, grid)) +
-                         "set grid linewidth 0.5 linecolor rgb '#c4c4c4'\n" +
-                         legend_below(drawing.names, format).commands + axis_commands('x', x) +
-                         axis_commands('y', y) + labels + drawing.data +
-                         plot_command(drawing.layers),
-                     title);
+  Panel panel{.x = plot_axis(axis, grid.drive, angle), .y = plot_axis(quantity, grid, angle)};
+  panel.y.logarithmic = scale.is_logarithmic;
+  panel.y.low = scale.foot;
+  panel.y.high = scale.top;
+  add_rest(diagram, scale, panel);
+  add_branches(diagram, scale, panel);
+  add_irregular(diagram, scale, panel);
+  add_borders(diagram, axis, scale, panel);
+  if (panel.layers.empty()) say("no cycle was found", panel);
+  return plot_of(
+      "Cycles over " + in_words(axis.path) + ": " + in_words(std::string(name_of(quantity))),
+      subtitle_of(diagram, grid), std::move(panel));
 }
 
 }  // namespace gearlash

@@ -1,12 +1,9 @@
 // Cycles over one parameter: stable and unstable branches, and the borders between them.
 #pragma once
 
-#include <optional>
-#include <string>
-
 #include "gearlash/grid.hpp"
 #include "input/units.hpp"
-#include "picture/picture.hpp"
+#include "picture/plot.hpp"
 #include "question/map/bifurcations.hpp"
 
 namespace gearlash {
@@ -15,15 +12,13 @@ namespace gearlash {
 /// frequency, multiplier.
 bool has_branches(Quantity quantity);
 
-/// Draws the quantity of every cycle over the grid's one axis: stable branches as thick lines,
-/// unstable ones dashed, irregular motion as crosses, rest as a line at amplitude 0, and borders as
-/// marks whose shape tells their word, or as a dotted upright line if they are of all motion.
-/// Borders of one word at one place are drawn once. Returns the bytes of the picture; the same
-/// diagram gives the same SVG. Angles are in `angle`, other units those of the registry. Amplitudes
-/// that differ by more than a factor of 30 have a logarithmic axis, with rest at its foot.
-/// Preconditions: has_branches(quantity), one axis of numbers. Throws
-/// OutputError if gnuplot is missing or fails.
-std::string draw_bifurcations(const BifurcationDiagram& diagram, const Grid& grid,
-                              Quantity quantity, const AngleUnit& angle, PictureFormat format);
+/// The quantity of every cycle over the grid's one axis: stable branches as thick lines, unstable
+/// ones dashed, irregular motion as crosses, rest as a line at amplitude 0, and borders as marks
+/// whose shape tells their word, or as a dotted upright line if they are of all motion. Borders of
+/// one word at one place are drawn once. Angles are in `angle`, other units those of the registry.
+/// Amplitudes that differ by more than a factor of 30 have a logarithmic axis, with rest at its
+/// foot. Preconditions: has_branches(quantity), one axis of numbers.
+Plot bifurcation_plot(const BifurcationDiagram& diagram, const Grid& grid, Quantity quantity,
+                      const AngleUnit& angle);
 
 }  // namespace gearlash

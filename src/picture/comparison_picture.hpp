@@ -1,15 +1,12 @@
 // The step responses of drives side by side.
 #pragma once
 
-#include <string>
-
 #include "output/comparison_report.hpp"
-#include "picture/picture.hpp"
+#include "picture/plot.hpp"
 
 namespace gearlash {
 
-/// Draws the load over time, one curve for each drive, until the last one stays or ends. Throws
-/// OutputError.
-std::string draw_comparison(const ComparisonReport& report, PictureFormat format);
+/// The load over time, one curve for each drive, until the last one stays or ends.
+Plot comparison_plot(const ComparisonReport& report);
 
 }  // namespace gearlash

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "picture/curve_panel.hpp"
 #include "picture/grid_words.hpp"
 #include "picture/hunting_curve.hpp"
 #include "question/family/evaluation.hpp"
@@ -13,7 +14,7 @@ namespace gearlash {
 namespace {
 
 /// One curve of the chart: rows `first` … of the table, over the last axis.
-ChartCurve curve_of(const GridTable& table, const Family& family, std::size_t first,
+NamedCurve curve_of(const GridTable& table, const Family& family, std::size_t first,
                     Quantity quantity) {
   const Axis& x = table.grid.axes.back();
   std::vector<double> place = values_at(table.grid, first);
@@ -54,7 +55,7 @@ std::string word_for_nothing(const GridTable& table, std::size_t first, std::siz
 
 /// Adds marks, because a line of one point is invisible, and a line between searched points is a
 /// guess.
-void mark_points(ChartCurve& curve, bool are_all_marked) {
+void mark_points(NamedCurve& curve, bool are_all_marked) {
   const auto is_drawn = [&](std::size_t i) {
     return i < curve.line.size() && std::isfinite(curve.line[i].y);
   };
@@ -64,27 +65,28 @@ void mark_points(ChartCurve& curve, bool are_all_marked) {
   }
 }
 
-void draw_in(double x_unit, double y_unit, ChartCurve& curve) {
-  for (std::vector<ChartPoint>* points : {&curve.line, &curve.marks, &curve.ends}) {
-    for (ChartPoint& point : *points) point = {point.x / x_unit, point.y / y_unit};
+void draw_in(double x_unit, double y_unit, NamedCurve& curve) {
+  for (MapCurve* points : {&curve.line, &curve.marks, &curve.ends}) {
+    for (MapPoint& point : *points) point = {point.x / x_unit, point.y / y_unit};
   }
 }
 
 }  // namespace
 
-LineChart chart_of(const GridTable& table, Quantity quantity) {
+Plot chart_plot(const GridTable& table, Quantity quantity) {
   const Grid& grid = table.grid;
   const Family family(grid);
   const Axis& x = grid.axes.back();
-  LineChart chart{.title = title_of(quantity),
-                  .subtitle = subtitle_of(grid),
-                  .x = chart_axis(x, grid.drive, table.angle),
-                  .y = {.label = label_of(quantity, grid, table.angle), .low = 0.0}};
-  const std::size_t curves = grid.axes.size() == 1 ? 1 : grid.axes.front().values.size();
+  const double x_unit = drawn_unit(x, grid.drive, table.angle);
+  const double y_unit = drawn_unit(quantity, grid, table.angle);
+  const std::size_t count = grid.axes.size() == 1 ? 1 : grid.axes.front().values.size();
+  std::vector<NamedCurve> curves;
+  double lowest = 0.0;
   bool nothing_drawn = true;
-  for (std::size_t i = 0; i < curves; ++i) {
+  bool has_ends = false;
+  for (std::size_t i = 0; i < count; ++i) {
     const std::size_t first = i * x.values.size();
-    ChartCurve curve = curve_of(table, family, first, quantity);
+    NamedCurve curve = curve_of(table, family, first, quantity);
     const bool is_drawn = std::any_of(curve.line.begin(), curve.line.end(),
                                       [](const auto& point) { return std::isfinite(point.y); });
     if (grid.axes.size() > 1) {
@@ -93,22 +95,26 @@ LineChart chart_of(const GridTable& table, Quantity quantity) {
                    text_with_unit(named, grid.drive, named.values[i], table.angle);
       if (!is_drawn) curve.name += ": " + word_for_nothing(table, first, x.values.size(), quantity);
     }
-    for (const ChartPoint& point : curve.line) {
-      if (point.y < 0.0) chart.y.low.reset();
-    }
+    for (const MapPoint& point : curve.line) lowest = std::min(lowest, point.y);
     if (!is_drawn) curve.line.clear();
     nothing_drawn = nothing_drawn && !is_drawn;
+    has_ends = has_ends || !curve.ends.empty();
     mark_points(curve, has_words(x, grid.drive) || family.engines().search);
     if (has_words(x, grid.drive)) curve.line.clear();
-    if (!curve.ends.empty()) chart.end_meaning = "hunting ends";
-    draw_in(drawn_unit(x, grid.drive, table.angle), drawn_unit(quantity, grid, table.angle), curve);
-    chart.curves.push_back(std::move(curve));
+    draw_in(x_unit, y_unit, curve);
+    curves.push_back(std::move(curve));
   }
+  Panel panel{.x = plot_axis(x, grid.drive, table.angle),
+              .y = plot_axis(quantity, grid, table.angle)};
+  if (!(lowest < 0.0)) panel.y.low = 0.0;
+  constexpr double mark_size = 0.8;
+  add_curves(curves, mark_size, panel);
+  explain_curves("", "", mark_size, has_ends ? "hunting ends" : "", panel);
   if (nothing_drawn) {
     const std::string word = word_for_nothing(table, 0, table.table.rows(), quantity);
-    chart.empty_meaning = word == "rests" ? "no limit cycle" : word;
+    say(word == "rests" ? "no limit cycle" : word, panel);
   }
-  return chart;
+  return plot_of(title_of(quantity), subtitle_of(grid), std::move(panel));
 }
 
 }  // namespace gearlash

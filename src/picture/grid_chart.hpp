@@ -2,7 +2,7 @@
 #pragma once
 
 #include "output/grid_table.hpp"
-#include "picture/line_chart.hpp"
+#include "picture/plot.hpp"
 
 namespace gearlash {
 
@@ -10,6 +10,6 @@ namespace gearlash {
 /// for a single axis. With plastic contact, curves of quantities that vanish with the cycle
 /// continue to the end of hunting. A point without neighbours is a mark, as is every point on an
 /// axis of words. Precondition: one axis or two.
-LineChart chart_of(const GridTable& table, Quantity quantity);
+Plot chart_plot(const GridTable& table, Quantity quantity);
 
 }  // namespace gearlash

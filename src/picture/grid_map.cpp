@@ -1,17 +1,29 @@
 #include "picture/grid_map.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
-#include "picture/cell_map.hpp"
+#include "picture/curve_panel.hpp"
 #include "picture/grid_words.hpp"
 #include "picture/hatching.hpp"
+#include "picture/paper.hpp"
 #include "question/family/evaluation.hpp"
+#include "question/map/contours.hpp"
 #include "question/map/hunting_boundary.hpp"
 
 namespace gearlash {
 namespace {
+
+constexpr double shortest_drawn = 35.0;  ///< of contours, pixels
+constexpr Colour light{104, 172, 214};   ///< of contours
+constexpr Colour dark{8, 44, 107};
+const Layer boundary_style{.colour = "#d55e00", .width = 3.0};
+const Layer inner_style{.colour = "#606060", .width = 1.5, .dashes = "6,4"};
+const Layer ceiling_style{.colour = "#7b3294", .width = 1.0, .dashes = "2,3"};
 
 /// Round in the drawn unit.
 std::vector<double> levels_of(const GridTable& table, Quantity quantity) {
@@ -58,28 +70,6 @@ const char* colour_of(PlaceKind kind) {
   return "#d4d4d4";
 }
 
-void add_regions(const GridTable& table, Quantity quantity, ContourMap& map) {
-  for (const MapRegion& region : *table.regions) {
-    map.regions.push_back(
-        {std::string(name_of(region.kind)), colour_of(region.kind), region.outlines});
-  }
-  map.boundary = borders_of(*table.regions, table.grid);
-  map.boundary_meaning = table.target ? "limit" : "border";
-  map.contour_meaning = in_words(std::string(gearlash::name_of(quantity)));
-  if (table.target) {
-    map.title = "Target: " + table.target_text;
-    map.contour_meaning += unit_in_brackets(quantity, table.grid, table.angle);
-    const bool is_limit = table.target->no_hunting || table.target->no_hunting_if_disturbed;
-    if (!is_limit) map.inner_boundary = *table.hunting_boundary;
-    map.inner_meaning = "hunting ends";
-    return;
-  }
-  const std::optional<Quantity> ceiling = ceiling_over(quantity);
-  if (!ceiling || !table.table.has(*ceiling)) return;
-  map.other_contours = drawn_contours(table, *ceiling);
-  map.other_meaning = "ceiling, proved";
-}
-
 /// The place of the drive as it is, if it lies on the map.
 std::optional<MapPoint> mark_of(const GridTable& table) {
   if (!table.present) return std::nullopt;
@@ -91,92 +81,183 @@ std::optional<MapPoint> mark_of(const GridTable& table) {
   return is_on_map ? table.present : std::nullopt;
 }
 
-ContourMap in_radians(const GridTable& table, Quantity quantity) {
-  const Grid& grid = table.grid;
-  ContourMap map{.title = title_of(quantity) + unit_in_brackets(quantity, grid, table.angle),
-                 .subtitle = subtitle_of(grid),
-                 .x = chart_axis(grid.axes[1], grid.drive, {}),
-                 .y = chart_axis(grid.axes[0], grid.drive, {}),
-                 .contours = drawn_contours(table, quantity),
-                 .boundary = table.hunting_boundary.value(),
-                 .mark = mark_of(table),
-                 .contour_meaning = "contours",
-                 .boundary_meaning = "hunting ends",
-                 .hatching_meaning = "no limit cycle",
-                 .mark_meaning = "now"};
-  if (table.regions) {
-    add_regions(table, quantity, map);
-    return map;
-  }
-  const Paper paper(map.x, map.y);
-  map.hatching = hatching(table, paper);
-  if (!table.dissipative_boundary) return map;
-  const Family family(grid);
-  map.inner_boundary = *table.dissipative_boundary;
-  map.inner_meaning = "none, any restitution";
-  map.inner_hatching =
-      hatching(map.inner_boundary, paper,
-               {.stretch =
-                    [&](const MapPoint& middle) {
-                      return side_of_dissipation(servo_at(family, middle)) == Side::outside;
-                    }},
-               HatchLines::second);
-  return map;
+/// The points that are needed on paper.
+MapCurve seen(const MapCurve& curve, const Paper& paper) {
+  return paper.on_map(thinned(paper.on_paper(curve)));
 }
 
-}  // namespace
+void add_line(const std::string& name, const std::vector<MapCurve>& curves, Layer style,
+              const Paper& paper, Panel& panel) {
+  for (const MapCurve& curve : curves) append(seen(curve, paper), style.points);
+  style.name = name;
+  if (!curves.empty()) panel.layers.push_back(std::move(style));
+}
 
-ContourMap map_of(const GridTable& table, Quantity quantity) {
-  ContourMap map = in_radians(table, quantity);
-  const Grid& grid = table.grid;
-  map.x = chart_axis(grid.axes[1], grid.drive, table.angle);
-  map.y = chart_axis(grid.axes[0], grid.drive, table.angle);
-  const double x_unit = drawn_unit(grid.axes[1], grid.drive, table.angle);
-  const double y_unit = drawn_unit(grid.axes[0], grid.drive, table.angle);
-  if (x_unit == 1.0 && y_unit == 1.0) return map;
-  const auto draw_in_units = [&](std::vector<MapCurve>& curves) {
-    for (MapCurve& curve : curves) {
-      for (MapPoint& point : curve) point = {point.x / x_unit, point.y / y_unit};
+/// The regions, the largest outline first: what lies in a hole of one covers it.
+void add_regions(const GridTable& table, const Paper& paper, Panel& panel) {
+  std::vector<std::pair<double, Layer>> layers;
+  for (const MapRegion& region : *table.regions) {
+    for (const MapCurve& outline : region.outlines) {
+      const double area = area_within(paper.on_paper(outline));
+      if (!(area > 0.0)) continue;  // a hole
+      layers.emplace_back(area, Layer{.kind = LayerKind::area,
+                                      .name = std::string(name_of(region.kind)),
+                                      .colour = colour_of(region.kind),
+                                      .points = seen(outline, paper)});
+    }
+  }
+  std::stable_sort(layers.begin(), layers.end(),
+                   [](const auto& one, const auto& other) { return one.first > other.first; });
+  for (auto& [area, layer] : layers) panel.layers.push_back(std::move(layer));
+}
+
+/// Hatches where there is no limit cycle, and doubly where there is none for any restitution.
+void add_hatching(const GridTable& table, const Paper& paper, Panel& panel) {
+  const auto add = [&](const std::string& name, const char* colour,
+                       const std::vector<MapCurve>& lines) {
+    if (lines.empty()) return;
+    panel.layers.push_back(
+        {.kind = LayerKind::hatching, .name = name, .colour = colour, .points = joined(lines)});
+  };
+  add("no limit cycle", "#a8a8a8", hatching(table, paper));
+  if (!table.dissipative_boundary) return;
+  const Family family(table.grid);
+  const auto is_dissipative = [&](const MapPoint& middle) {
+    return side_of_dissipation(servo_at(family, middle)) == Side::outside;
+  };
+  const std::string name = "none, any restitution";
+  const std::vector<MapCurve> inner =
+      hatching(*table.dissipative_boundary, paper, {.stretch = is_dissipative}, HatchLines::second);
+  add(name, "#6e6e6e", inner);
+  add_line(inner.empty() ? name : "", *table.dissipative_boundary, inner_style, paper, panel);
+}
+
+/// The contours from light to dark, with numbers in their longer parts.
+void add_contours(const std::vector<Contour>& contours, const std::string& name, bool is_proved,
+                  const Paper& paper, TextPlacer& placer, Panel& panel) {
+  for (std::size_t i = 0; i < contours.size(); ++i) {
+    const double share = contours.size() < 2
+                             ? 1.0
+                             : static_cast<double>(i) / static_cast<double>(contours.size() - 1);
+    Layer layer =
+        is_proved ? ceiling_style : Layer{.colour = mixed(light, dark, share), .width = 1.3};
+    if (i == contours.size() / 2) layer.name = name;
+    for (const MapCurve& curve : contours[i].curves) {
+      const PaperLine line = thinned(paper.on_paper(curve));
+      if (length_of(line) <= shortest_drawn) continue;  // would be clutter
+      PlotText number{.text = fmt::format("{:.4g}", contours[i].level)};
+      const auto place = placer.along(line, number.text, number.size);
+      for (const PaperLine& part : place ? place->parts : std::vector<PaperLine>{line}) {
+        append(paper.on_map(part), layer.points);
+      }
+      if (!place) continue;
+      number.at = paper.on_map(place->centre);
+      number.slope = place->slope;
+      panel.texts.push_back(std::move(number));
+    }
+    panel.layers.push_back(std::move(layer));
+  }
+}
+
+void add_all_contours(const GridTable& table, Quantity quantity,
+                      const std::vector<MapCurve>& boundary, const Paper& paper, Panel& panel) {
+  const std::vector<Contour> contours = drawn_contours(table, quantity);
+  std::vector<Contour> ceilings;
+  const std::optional<Quantity> ceiling = ceiling_over(quantity);
+  if (table.regions && !table.target && ceiling && table.table.has(*ceiling)) {
+    ceilings = drawn_contours(table, *ceiling);
+  }
+  std::vector<PaperLine> lines;
+  const auto avoid = [&](const std::vector<MapCurve>& curves) {
+    for (const MapCurve& curve : curves) {
+      PaperLine line = thinned(paper.on_paper(curve));
+      if (length_of(line) > shortest_drawn) lines.push_back(std::move(line));
     }
   };
-  for (ColouredRegion& region : map.regions) draw_in_units(region.outlines);
-  for (std::vector<Contour>* contours : {&map.contours, &map.other_contours}) {
-    for (Contour& contour : *contours) draw_in_units(contour.curves);
-  }
-  for (std::vector<MapCurve>* curves :
-       {&map.boundary, &map.hatching, &map.inner_boundary, &map.inner_hatching}) {
-    draw_in_units(*curves);
-  }
-  if (map.mark) map.mark = {map.mark->x / x_unit, map.mark->y / y_unit};
-  return map;
+  avoid(boundary);
+  for (const Contour& contour : contours) avoid(contour.curves);
+  for (const Contour& contour : ceilings) avoid(contour.curves);
+  TextPlacer placer(std::move(lines), panel.height);
+  const std::string name =
+      table.regions ? in_words(std::string(gearlash::name_of(quantity))) : "contours";
+  add_contours(contours,
+               table.target ? name + unit_in_brackets(quantity, table.grid, table.angle) : name,
+               false, paper, placer, panel);
+  add_contours(ceilings, "ceiling, proved", true, paper, placer, panel);
 }
 
-namespace {
+/// In the units of the table's grid, SI.
+Panel panel_of(const GridTable& table, Quantity quantity) {
+  const Grid& grid = table.grid;
+  Panel panel{.x = plot_axis(grid.axes[1], grid.drive, {}),
+              .y = plot_axis(grid.axes[0], grid.drive, {})};
+  panel.x.has_grid = panel.y.has_grid = false;
+  const Paper paper(panel);
+  if (table.regions) {
+    add_regions(table, paper, panel);
+    const bool is_limit =
+        table.target && (table.target->no_hunting || table.target->no_hunting_if_disturbed);
+    if (table.target && !is_limit) {
+      add_line("hunting ends", *table.hunting_boundary, inner_style, paper, panel);
+    }
+  } else {
+    add_hatching(table, paper, panel);
+  }
+  const std::vector<MapCurve> boundary =
+      table.regions ? borders_of(*table.regions, grid) : table.hunting_boundary.value();
+  add_all_contours(table, quantity, boundary, paper, panel);
+  add_line(!table.regions ? "hunting ends"
+           : table.target ? "limit"
+                          : "border",
+           boundary, boundary_style, paper, panel);
+  if (const auto mark = mark_of(table)) {
+    panel.layers.push_back(
+        {.kind = LayerKind::marks, .name = "now", .size = 1.0, .points = {*mark}});
+  }
+  return panel;
+}
 
-/// One cell for each point: its number, or infinity (a dot) if the drive comes to rest.
-CellMap cells_of(const GridTable& table, Quantity quantity) {
+Plot contour_plot(const GridTable& table, Quantity quantity) {
+  const Grid& grid = table.grid;
+  Panel panel = panel_of(table, quantity);
+  const auto set_axis = [&](std::size_t axis, PlotAxis& drawn) {
+    drawn = plot_axis(grid.axes[axis], grid.drive, table.angle);
+    drawn.has_grid = false;
+    return drawn_unit(grid.axes[axis], grid.drive, table.angle);
+  };
+  const double x_unit = set_axis(1, panel.x);
+  const double y_unit = set_axis(0, panel.y);
+  const auto draw_in_units = [&](MapPoint& point) { point = {point.x / x_unit, point.y / y_unit}; };
+  for (Layer& layer : panel.layers) {
+    std::for_each(layer.points.begin(), layer.points.end(), draw_in_units);
+  }
+  for (PlotText& text : panel.texts) draw_in_units(text.at);
+  return plot_of(table.target ? "Target: " + table.target_text
+                              : title_of(quantity) + unit_in_brackets(quantity, grid, table.angle),
+                 subtitle_of(grid), std::move(panel));
+}
+
+/// One cell for each point: its number, or a dot if the drive comes to rest.
+Plot cell_plot(const GridTable& table, Quantity quantity) {
   const Grid& grid = table.grid;
   const Axis& y = grid.axes[0];
   const Axis& x = grid.axes[1];
-  CellMap map{.title = title_of(quantity) + unit_in_brackets(quantity, grid, table.angle),
-              .subtitle = subtitle_of(grid) + "; · comes to rest, empty: not known" +
-                          (table.target ? "; framed: " + table.target_text : ""),
-              .x_label = chart_axis(x, grid.drive, table.angle).label,
-              .y_label = chart_axis(y, grid.drive, table.angle).label,
-              .largest = 0.0,
-              .number_format = "%.3g"};
+  Cells cells{.largest = 0.0,
+              .number_format = "{:.3g}",
+              .letters = x.values.size() > 8 ? 0.75 : 1.0,
+              .dot_meaning = "comes to rest",
+              .frame_meaning = table.target ? "framed: " + table.target_text : ""};
   for (const double value : x.values) {
-    map.columns.push_back(short_text(x, grid.drive, value, table.angle));
+    cells.columns.push_back(short_text(x, grid.drive, value, table.angle));
   }
   for (const double value : y.values) {
-    map.rows.push_back(short_text(y, grid.drive, value, table.angle));
+    cells.rows.push_back(short_text(y, grid.drive, value, table.angle));
   }
-  CellPanel panel;
   const double unit = drawn_unit(quantity, grid, table.angle);
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < y.values.size(); ++i) {
-    std::vector<double>& row = panel.values.emplace_back();
-    std::vector<bool>& framed = panel.framed.emplace_back();
+    std::vector<double>& row = cells.values.emplace_back();
+    std::vector<bool>& framed = cells.framed.emplace_back();
     for (std::size_t j = 0; j < x.values.size(); ++j) {
       const std::size_t point = i * x.values.size() + j;
       const double value = motion_value(table.table, quantity, point) / unit;
@@ -184,15 +265,19 @@ CellMap cells_of(const GridTable& table, Quantity quantity) {
       row.push_back(is_rest ? std::numeric_limits<double>::infinity() : value);
       framed.push_back(table.target && table.kinds[point] == PlaceKind::met);
       if (!std::isfinite(value)) continue;
-      map.largest = std::max(map.largest, std::abs(value));
+      cells.largest = std::max(cells.largest, std::abs(value));
       least = std::min(least, value);
     }
   }
   constexpr double far = 10.0;  // a ratio that proportional colours would not show
-  if (least > 0.0 && map.largest > far * least) map.least = least;
-  if (map.largest == 0.0) map.largest = 1.0;
-  map.panels.push_back(std::move(panel));
-  return map;
+  if (least > 0.0 && cells.largest > far * least) cells.least = least;
+  if (cells.largest == 0.0) cells.largest = 1.0;
+  const auto label = [&](const Axis& axis) {
+    const PlotAxis drawn = plot_axis(axis, grid.drive, table.angle);
+    return drawn.unit.empty() ? drawn.name : drawn.name + " (" + drawn.unit + ")";
+  };
+  return plot_of(title_of(quantity) + unit_in_brackets(quantity, grid, table.angle),
+                 subtitle_of(grid) + "; empty: not known", cell_panel(cells, label(x), label(y)));
 }
 
 }  // namespace
@@ -203,7 +288,7 @@ std::optional<Quantity> ceiling_over(Quantity quantity) {
   return std::nullopt;
 }
 
-std::string draw_grid_map(const GridTable& table, Quantity quantity, PictureFormat format) {
+Plot map_plot(const GridTable& table, Quantity quantity) {
   constexpr std::size_t most_cells = 12;  // in a line with numbers
   const Grid& grid = table.grid;
   bool any_words = false;
@@ -213,8 +298,7 @@ std::string draw_grid_map(const GridTable& table, Quantity quantity, PictureForm
     is_small = is_small && axis.values.size() <= most_cells;
   }
   const bool as_cells = any_words || (is_small && !table.target && Family(grid).engines().search);
-  return as_cells ? draw_cell_map(cells_of(table, quantity), format)
-                  : draw_contour_map(map_of(table, quantity), format);
+  return as_cells ? cell_plot(table, quantity) : contour_plot(table, quantity);
 }
 
 }  // namespace gearlash

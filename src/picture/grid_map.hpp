@@ -2,22 +2,20 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "output/grid_table.hpp"
-#include "picture/contour_map.hpp"
+#include "picture/plot.hpp"
 
 namespace gearlash {
 
-/// In the table's unit of angles: contours of the quantity, the hunting-free boundary, and hatching
-/// where there is no limit cycle; of a table with regions these are coloured instead. Precondition:
-/// two axes, y and x, each with at least two finite values; the table has its boundary.
-ContourMap map_of(const GridTable& table, Quantity quantity);
-
-/// The picture: map_of(). If an axis has words, or drives are searched at few points and without a
-/// target, each point is a cell instead, with its number, or a dot at rest; a frame if it meets the
-/// target. Precondition: two axes, y and x, each with at least two values.
-std::string draw_grid_map(const GridTable& table, Quantity quantity, PictureFormat format);
+/// In the table's unit of angles: contours of the quantity, the border where hunting ends, and
+/// hatching where there is no limit cycle; of a table with regions these are coloured instead. If
+/// an axis has words, or drives are searched at few points and without a target, each point is a
+/// cell instead, with its number, or a dot at rest; a frame if it meets the target. Curves are
+/// thinned by less than is visible, so that the finest grid gives a small file. Precondition: two
+/// axes, y and x, each with at least two values; a table that is no table of cells has its
+/// boundary.
+Plot map_plot(const GridTable& table, Quantity quantity);
 
 /// The quantity whose contours a map of searched drives shows too: the proved bound of every
 /// motion. Empty for a quantity without one.

@@ -45,28 +45,6 @@ std::string name_of_unit(const Axis& axis, const Drive& drive, const AngleUnit& 
   return unit == "1" ? "" : unit;
 }
 
-/// Tics at 1, 2 and 5, or at all digits, if gnuplot's one for each power of ten would give fewer
-/// than two.
-std::vector<std::pair<std::string, double>> logarithmic_tics(double low, double high) {
-  if (!(low > 0.0)) return {};
-  constexpr double more = 1.0 + 1e-9;
-  std::vector<std::pair<std::string, double>> tics;
-  const auto add = [&](std::initializer_list<int> digits) {
-    tics.clear();
-    for (double power = std::floor(std::log10(low)); power <= std::log10(high); ++power) {
-      for (const int digit : digits) {
-        const double value = digit * std::pow(10.0, power);
-        if (value * more < low || value > high * more) continue;
-        tics.emplace_back(fmt::format("{:.7g}", value), value);
-      }
-    }
-    return tics.size() >= 2;
-  };
-  if (add({1})) return {};
-  if (add({1, 2, 5}) || add({1, 2, 3, 4, 5, 6, 7, 8, 9})) return tics;
-  return {{fmt::format("{:.4g}", low), low}, {fmt::format("{:.4g}", high), high}};
-}
-
 }  // namespace
 
 std::string subtitle_of(const Grid& grid) {
@@ -96,13 +74,14 @@ std::string title_of(Quantity quantity) {
   return title;
 }
 
-std::string unit_in_brackets(Quantity quantity, const Grid& grid, const AngleUnit& angle) {
+PlotAxis plot_axis(Quantity quantity, const Grid& grid, const AngleUnit& angle) {
   const std::string unit = unit_of(quantity, grid, angle);
-  return unit == "1" ? "" : " (" + unit + ")";
+  return {.name = in_words(std::string(name_of(quantity))), .unit = unit == "1" ? "" : unit};
 }
 
-std::string label_of(Quantity quantity, const Grid& grid, const AngleUnit& angle) {
-  return in_words(std::string(name_of(quantity))) + unit_in_brackets(quantity, grid, angle);
+std::string unit_in_brackets(Quantity quantity, const Grid& grid, const AngleUnit& angle) {
+  const std::string unit = plot_axis(quantity, grid, angle).unit;
+  return unit.empty() ? "" : " (" + unit + ")";
 }
 
 double drawn_unit(Quantity quantity, const Grid& grid, const AngleUnit& angle) {
@@ -126,32 +105,23 @@ std::string text_with_unit(const Axis& axis, const Drive& drive, double value,
   return short_text(axis, drive, value, angle) + (unit.empty() ? "" : " " + unit);
 }
 
-ChartAxis chart_axis(const Axis& axis, const Drive& drive, const AngleUnit& angle) {
-  const std::string unit = name_of_unit(axis, drive, angle);
-  ChartAxis drawn{.label = in_words(axis.path) + (unit.empty() ? "" : " (" + unit + ")"),
-                  .logarithmic = axis.logarithmic};
-  if (has_words(axis, drive)) {
-    constexpr double room = 0.5;
-    const auto [low, high] = std::minmax_element(axis.values.begin(), axis.values.end());
-    drawn.low = *low - room;
-    drawn.high = *high + room;
-    for (const double value : axis.values) {
-      drawn.tics.emplace_back(text_of(axis, drive, value), value);
-    }
-    return drawn;
-  }
+PlotAxis plot_axis(const Axis& axis, const Drive& drive, const AngleUnit& angle) {
+  PlotAxis drawn{.name = in_words(axis.path),
+                 .unit = name_of_unit(axis, drive, angle),
+                 .logarithmic = axis.logarithmic && axis.values.size() > 1};
   const double per = drawn_unit(axis, drive, angle);
-  drawn.low = axis.values.front() / per;
-  drawn.high = axis.values.back() / per;
-  if (axis.logarithmic) drawn.tics = logarithmic_tics(*drawn.low, *drawn.high);
-  if (axis.values.size() == 1) {
-    const double value = axis.values.front() / per;
-    const double room = value > 0.0 ? 0.1 * value : 0.1;
-    drawn = {.label = drawn.label,
-             .low = value - room,
-             .high = value + room,
-             .tics = {{fmt::format("{:.7g}", value), value}}};
+  const auto [low, high] = std::minmax_element(axis.values.begin(), axis.values.end());
+  drawn.low = *low / per;
+  drawn.high = *high / per;
+  const bool is_of_words = has_words(axis, drive);
+  if (!is_of_words && axis.values.size() > 1) return drawn;
+  const double room = is_of_words ? 0.5 : *low > 0.0 ? 0.1 * *drawn.low : 0.1;
+  for (const double value : axis.values) {
+    drawn.tics.push_back({value / per, is_of_words ? text_of(axis, drive, value)
+                                                   : fmt::format("{:.7g}", value / per)});
   }
+  *drawn.low -= room;
+  *drawn.high += room;
   return drawn;
 }
 

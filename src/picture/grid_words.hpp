@@ -4,7 +4,7 @@
 #include <string>
 
 #include "input/units.hpp"
-#include "picture/line_chart.hpp"
+#include "picture/plot.hpp"
 #include "question/axis.hpp"
 
 namespace gearlash {
@@ -19,12 +19,12 @@ std::string in_words(const std::string& path);
 /// "Amplitude of the load".
 std::string title_of(Quantity quantity);
 
-/// " (rad)"; empty for a pure number. Angles are in `angle`; for a normal form with a fixed
-/// backlash of 1 in backlashes. For one without a natural frequency, times are in units of 1/ω_n.
-std::string unit_in_brackets(Quantity quantity, const Grid& grid, const AngleUnit& angle);
+/// Its axis in a picture. Angles are in `angle`; for a normal form with a fixed backlash of 1 in
+/// backlashes. For one without a natural frequency, times are in units of 1/ω_n.
+PlotAxis plot_axis(Quantity quantity, const Grid& grid, const AngleUnit& angle);
 
-/// "amplitude (rad)".
-std::string label_of(Quantity quantity, const Grid& grid, const AngleUnit& angle);
+/// " (rad)"; empty for a pure number.
+std::string unit_in_brackets(Quantity quantity, const Grid& grid, const AngleUnit& angle);
 
 /// That unit as a table has it: the radians of an angle's, else 1.
 double drawn_unit(Quantity quantity, const Grid& grid, const AngleUnit& angle);
@@ -41,7 +41,7 @@ std::string text_with_unit(const Axis& axis, const Drive& drive, double value,
 /// The unit in which an axis is drawn, as the drive has it: the radians of an angle's, else 1.
 double drawn_unit(const Axis& axis, const Drive& drive, const AngleUnit& angle);
 
-/// The axis for a chart, in its drawn unit; a single value stands in the middle.
-ChartAxis chart_axis(const Axis& axis, const Drive& drive, const AngleUnit& angle);
+/// The axis in a picture, in its drawn unit; a single value stands in the middle.
+PlotAxis plot_axis(const Axis& axis, const Drive& drive, const AngleUnit& angle);
 
 }  // namespace gearlash

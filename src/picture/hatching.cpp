@@ -9,8 +9,8 @@
 namespace gearlash {
 namespace {
 
-constexpr double spacing = 0.13;  ///< between lines, vertically
-constexpr double step = 0.02;     ///< along lines, horizontally
+constexpr double spacing = 13.0;  ///< between lines, vertically, in pixels
+constexpr double step = 2.0;      ///< along lines, horizontally
 
 /// A line up = right + offset, and the places where a stretch of it may begin or end.
 struct Diagonal {
@@ -24,23 +24,23 @@ struct Diagonal {
 std::vector<Diagonal> diagonals(const std::vector<MapCurve>& boundary, const Paper& paper,
                                 HatchLines which) {
   const double shift = which == HatchLines::second ? 0.5 * spacing : 0.0;
-  const auto lowest = static_cast<long>(std::ceil(-Paper::width / spacing));
-  const auto highest = static_cast<long>(std::floor(Paper::height / spacing));
+  const auto lowest = static_cast<long>(std::ceil(-panel_width / spacing));
+  const auto highest = static_cast<long>(std::floor(paper.height() / spacing));
   std::map<long, Diagonal> lines;
   for (long i = lowest; i <= highest; ++i) {
     const double offset = spacing * static_cast<double>(i) + shift;
-    lines[i] = {offset, {std::max(0.0, -offset), std::min(Paper::width, Paper::height - offset)}};
+    lines[i] = {offset, {std::max(0.0, -offset), std::min(panel_width, paper.height() - offset)}};
   }
   for (const MapCurve& curve : boundary) {
-    const PaperLine line = paper.line_on_paper(curve);
+    const PaperLine line = paper.on_paper(curve);
     for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-      const double from = line[k].up - line[k].right - shift;
-      const double to = line[k + 1].up - line[k + 1].right - shift;
+      const double from = line[k].imag() - line[k].real() - shift;
+      const double to = line[k + 1].imag() - line[k + 1].real() - shift;
       const auto first = static_cast<long>(std::ceil(std::min(from, to) / spacing));
       for (long i = first; spacing * static_cast<double>(i) < std::max(from, to); ++i) {
         if (!lines.contains(i)) continue;
         const double share = (lines[i].offset - shift - from) / (to - from);
-        lines[i].rights.push_back(line[k].right + share * (line[k + 1].right - line[k].right));
+        lines[i].rights.push_back(line[k].real() + share * (line[k + 1].real() - line[k].real()));
       }
     }
   }
@@ -73,8 +73,8 @@ bool is_at_rest_for_good(const GridTable& table, const MapPoint& point) {
 /// Hatches the stretch from `begin` to `end`, which does not cross the boundary.
 void hatch(const Hatched& hatched, const Paper& paper, const Diagonal& line, double begin,
            double end, std::vector<MapCurve>& lines) {
-  const auto map_at = [&](double right) { return paper.point_on_map(line.at(right)); };
-  if (!(end - begin > 1e-3) || !hatched.stretch(map_at(0.5 * (begin + end)))) return;
+  const auto map_at = [&](double right) { return paper.on_map(line.at(right)); };
+  if (!(end - begin > 0.1) || !hatched.stretch(map_at(0.5 * (begin + end)))) return;
   const double steps = hatched.left_out ? std::ceil((end - begin) / step) : 0.0;
   const auto place = [&](double i) { return begin + (end - begin) * i / steps; };
   double start = begin;

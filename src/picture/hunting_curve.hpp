@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/normalized_servo.hpp"
-#include "picture/line_chart.hpp"
+#include "picture/curve_panel.hpp"
 
 namespace gearlash {
 
@@ -21,7 +21,7 @@ struct CurveServo {
 /// neighbours hunts, bisection finds the place between them where hunting ends; the value goes to
 /// `limit` there, and `ends` lists the point. Precondition: if an end is sought, contact is plastic
 /// and the value has this limit.
-ChartCurve curve_to_hunting_ends(const std::vector<CurveServo>& servos,
+NamedCurve curve_to_hunting_ends(const std::vector<CurveServo>& servos,
                                  const std::function<NormalizedServo(double place)>& servo_at,
                                  double limit);
 

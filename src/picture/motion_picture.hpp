@@ -5,14 +5,13 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "gearlash/bounds.hpp"
 #include "gearlash/drive.hpp"
 #include "gearlash/motion.hpp"
 #include "input/units.hpp"
-#include "picture/picture.hpp"
+#include "picture/plot.hpp"
 
 namespace gearlash {
 
@@ -49,7 +48,7 @@ struct PhaseWindow {
   bool is_of_motor = false;  ///< roles of one shaft are of the motor's, else of the load's
   std::vector<DrawnStart> starts{};
   /// The borders between starts that lead to different ends.
-  std::vector<std::vector<std::pair<double, double>>> borders{};
+  std::vector<MapCurve> borders{};
 };
 
 struct MotionPicture {
@@ -68,20 +67,16 @@ struct MotionPicture {
 inline constexpr std::size_t most_events_drawn = 20'000;
 inline constexpr double most_periods_drawn = 1'600.0;
 
-/// Draws the first motion over time: the positions of load and motor with the reference and the gap
+/// The first motion over time: the positions of load and motor with the reference and the gap
 /// around the load, the gap between its faces, and the motor's torque with its limit. If the motion
 /// ends in an oscillation, or at an error, that is small or fast beside the whole, a second column
 /// shows the end alone, relative to the reference, with the encoder's steps where they are visible.
-///
-/// Returns the bytes of the picture; the same motion gives the same SVG. Throws InvalidInput for
-/// more than most_events_drawn events or most_periods_drawn periods, and OutputError if gnuplot is
-/// missing or fails.
-std::string draw_time_response(const MotionPicture& picture, PictureFormat format);
+/// Throws InvalidInput for more than most_events_drawn events or most_periods_drawn periods.
+Plot time_plot(const MotionPicture& picture);
 
-/// Draws speed over position relative to the reference: load (solid), motor (dashed), the gap
-/// between them (shaded while the faces are apart, without a window) and impacts, at which speeds
-/// leap along dotted lines; marks of starts and the borders between them. Otherwise like
-/// draw_time_response().
-std::string draw_phase_plane(const MotionPicture& picture, PictureFormat format);
+/// Speed over position relative to the reference: load (solid), motor (dashed), the gap between
+/// them (shaded while the faces are apart, without a window) and impacts, at which speeds leap
+/// along dotted lines; marks of starts and the borders between them. Throws like time_plot().
+Plot phase_plot(const MotionPicture& picture);
 
 }  // namespace gearlash

@@ -13,21 +13,17 @@
 
 namespace gearlash {
 
-Bounds widened(const Bounds& extent, double margin) {
-  const auto [low, high] = extent;
-  const double length = high > low ? high - low : std::max(1.0, std::abs(high));
-  return {low - margin * length, high + margin * length};
-}
-
-void ImpactMarks::add(double x, double y, double other) {
-  constexpr double smallest_distance = 0.004;  // of the extent; less than a mark
-  if (std::abs(x - x_) < smallest_distance * x_extent_ &&
-      std::abs(y - y_) < smallest_distance * y_extent_) {
-    return;
+Layer impact_marks(const MapCurve& impacts, const Bounds& x, const Bounds& y, double size) {
+  constexpr double smallest_distance = 0.004;  // of the axes; less than a mark
+  Layer layer{.kind = LayerKind::marks, .name = impacts.empty() ? "" : "impact", .size = size};
+  for (const MapPoint& point : impacts) {
+    const bool covers =
+        !layer.points.empty() &&
+        std::abs(point.x - layer.points.back().x) < smallest_distance * (x.high - x.low) &&
+        std::abs(point.y - layer.points.back().y) < smallest_distance * (y.high - y.low);
+    if (!covers) layer.points.push_back(point);
   }
-  x_ = x;
-  y_ = y;
-  marks_.row(x, y, other);
+  return layer;
 }
 
 std::vector<DrawnPiece> legible_curve(const MotionPicture& picture, const Motion& motion) {

@@ -13,13 +13,14 @@ namespace {
 using Curve = std::function<Complex(double parameter)>;
 
 /// Appends points between two points until no chord in or near the window is longer than a
-/// hundredth of its height. Intervals of the parameter are split at their geometric mean.
+/// few pixels. Intervals of the parameter are split at their geometric mean.
 void refine(const Curve& curve, const Window& window, const TracePoint& from, const TracePoint& to,
             int depth, Trace& trace) {
-  constexpr double near = 0.3;
+  constexpr double near = 150.0;  // pixels
+  constexpr double longest = 5.0;
   const bool is_seen = window.holds(from.value, near) || window.holds(to.value, near);
-  const double length = std::abs(to.value - from.value) / window.height;
-  if (depth > 0 && is_seen && length > 0.01) {
+  const double length = std::abs(to.value - from.value) * window.scale;
+  if (depth > 0 && is_seen && length > longest) {
     const double middle = std::sqrt(from.parameter) * std::sqrt(to.parameter);
     const TracePoint between{middle, curve(middle)};
     refine(curve, window, from, between, depth - 1, trace);
@@ -41,18 +42,19 @@ Trace traced(const Curve& curve, const Window& window, double low, double high) 
 
 }  // namespace
 
-Window window_around(const std::vector<Complex>& points, double aspect) {
+Window window_around(const std::vector<Complex>& points, const Complex& size) {
   Complex low = points.front();
   Complex high = points.front();
   for (const Complex& point : points) {
     low = {std::min(low.real(), point.real()), std::min(low.imag(), point.imag())};
     high = {std::max(high.real(), point.real()), std::max(high.imag(), point.imag())};
   }
-  const Complex size = high - low;
+  const Complex extent = high - low;
   constexpr double filled = 0.68;  // share of the frame
-  const double height = std::max({size.imag(), size.real() / aspect, 1e-300}) / filled;
-  const Complex spare = Complex{aspect * height, height} - size;
-  return {low - Complex{0.65 * spare.real(), 0.5 * spare.imag()}, height, aspect};
+  const double scale =
+      filled / std::max({extent.imag() / size.imag(), extent.real() / size.real(), 1e-300});
+  const Complex spare = size / scale - extent;
+  return {low - Complex{0.65 * spare.real(), 0.5 * spare.imag()}, scale, size};
 }
 
 Complex loop_at(const TransferFunction& loop, double frequency) {
@@ -95,8 +97,9 @@ Complex inverse_gain(const Nonlinearity& nonlinearity, double amplitude) {
 Trace traced_inverse_gain(const Nonlinearity& nonlinearity, const Window& window) {
   const AmplitudeScale scale = scale_of(nonlinearity);
   // Without a least amplitude, −1/N is proportional to the amplitude.
-  const double size =
-      scale.least > 0.0 ? scale.least : window.height / std::abs(inverse_gain(nonlinearity, 1.0));
+  const double size = scale.least > 0.0 ? scale.least
+                                        : window.size.imag() / window.scale /
+                                              std::abs(inverse_gain(nonlinearity, 1.0));
   // The parameter is the amplitude's excess over the least one.
   Trace trace =
       traced([&](double excess) { return inverse_gain(nonlinearity, scale.least + excess); },

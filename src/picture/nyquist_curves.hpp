@@ -12,23 +12,24 @@ namespace gearlash {
 
 using Complex = std::complex<double>;
 
-/// The visible part of the complex plane. Both axes have the same scale. Lengths on paper are in
-/// heights of the frame.
+/// The visible part of the complex plane. Both axes have the same scale.
 struct Window {
-  Complex corner;  ///< lower left
-  double height = 1.0;
-  double aspect = 1.0;  ///< width divided by height
+  Complex corner;      ///< lower left
+  double scale = 1.0;  ///< pixels for 1
+  Complex size;        ///< pixels
 
-  Complex on_paper(const Complex& point) const { return (point - corner) / height; }
+  Complex on_paper(const Complex& point) const { return (point - corner) * scale; }
+  Complex from_paper(const Complex& place) const { return corner + place / scale; }
+  /// `margin`: pixels.
   bool holds(const Complex& point, double margin = 0.0) const {
     const Complex place = on_paper(point);
-    return place.real() >= -margin && place.real() <= aspect + margin && place.imag() >= -margin &&
-           place.imag() <= 1.0 + margin;
+    return place.real() >= -margin && place.real() <= size.real() + margin &&
+           place.imag() >= -margin && place.imag() <= size.imag() + margin;
   }
 };
 
-/// The window around the points with a margin, larger on the left, where L comes from.
-Window window_around(const std::vector<Complex>& points, double aspect);
+/// The window of that size around the points with a margin, larger on the left, where L comes from.
+Window window_around(const std::vector<Complex>& points, const Complex& size);
 
 struct TracePoint {
   double parameter;

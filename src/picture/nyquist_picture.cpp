@@ -12,10 +12,8 @@
 
 #include "base/overloaded.hpp"
 #include "output/describe_report.hpp"
-#include "picture/gnuplot.hpp"
-#include "picture/gnuplot_script.hpp"
 #include "picture/nyquist_curves.hpp"
-#include "picture/text_placer.hpp"
+#include "picture/paper.hpp"
 
 namespace gearlash {
 namespace {
@@ -27,20 +25,16 @@ using drive::DescribingAnalysis;
 constexpr double turn = 2.0 * std::numbers::pi;
 constexpr int label_digits = 3;
 
-// The frame of terminal() and heading(), in shares of the picture; then this picture's proportions.
-constexpr double frame_left = 0.11;
-constexpr double frame_width = 0.97 - frame_left;
-constexpr double frame_top = 0.88;
-constexpr double paper_width = 9.0;
-constexpr double paper_height = 7.0;
-
 // ---- key points ---------------------------------------------------------------------------------
 
-enum class MarkKind { stable, unstable, exact_frequency, exact_amplitude };
+constexpr Mark stable_mark = Mark::disc;
+constexpr Mark unstable_mark = Mark::circle;
+constexpr Mark exact_frequency_mark = Mark::diamond;
+constexpr Mark exact_amplitude_mark = Mark::open_diamond;
 
 struct KeyPoint {
   Complex at;
-  MarkKind mark;
+  Mark mark;
   std::string label;  ///< beside it
   std::string legend;
 };
@@ -71,7 +65,7 @@ std::vector<KeyPoint> key_points(const NyquistPicture& picture) {
       const bool stable = cycle.balance.stable;
       const std::string name = std::to_string(++number);
       points.push_back({loop_at(analysis.loop, cycle.balance.frequency),
-                        stable ? MarkKind::stable : MarkKind::unstable, name,
+                        stable ? stable_mark : unstable_mark, name,
                         fmt::format("{} {}{}: {}", name, stable ? "stable" : "unstable",
                                     distinction(picture, analysis),
                                     motion_text(cycle.amplitude, cycle.balance.period, picture))});
@@ -80,13 +74,13 @@ std::vector<KeyPoint> key_points(const NyquistPicture& picture) {
   for (const drive::ExactMotion& cycle : picture.exact) {
     if (!is_drawn(cycle)) continue;
     points.push_back(
-        {loop_at(picture.analyses.front().loop, turn / cycle.period), MarkKind::exact_frequency,
+        {loop_at(picture.analyses.front().loop, turn / cycle.period), exact_frequency_mark,
          "exact ω",
          "L at the exact frequency: " + motion_text(cycle.amplitude, cycle.period, picture)});
     for (const DescribingAnalysis& analysis : picture.analyses) {
       points.push_back(
           {inverse_gain(analysis.nonlinearity, drive::input_amplitude(analysis, cycle)),
-           MarkKind::exact_amplitude, "exact A",
+           exact_amplitude_mark, "exact A",
            "−1/N at the exact amplitude" + distinction(picture, analysis)});
     }
   }
@@ -125,7 +119,7 @@ double extent_of(const TransferFunction& loop) {
 /// The window with the origin, the linear end of −1/N, stable cycles and the exact frequency. Other
 /// points are included up to three times as far from the origin.
 Window critical_window(const NyquistPicture& picture, const std::vector<KeyPoint>& points,
-                       double aspect) {
+                       const Complex& size) {
   std::vector<Complex> shown = {0.0};
   for (const DescribingAnalysis& analysis : picture.analyses) {
     if (const auto end = linear_end(analysis.nonlinearity)) {
@@ -134,11 +128,11 @@ Window critical_window(const NyquistPicture& picture, const std::vector<KeyPoint
     }
   }
   const bool has_stable = std::any_of(points.begin(), points.end(), [](const KeyPoint& point) {
-    return point.mark == MarkKind::stable;
+    return point.mark == stable_mark;
   });
-  const auto is_wanted = [&](MarkKind mark) {
-    return mark == MarkKind::stable || mark == MarkKind::exact_frequency ||
-           (mark == MarkKind::unstable && !has_stable);
+  const auto is_wanted = [&](Mark mark) {
+    return mark == stable_mark || mark == exact_frequency_mark ||
+           (mark == unstable_mark && !has_stable);
   };
   for (const KeyPoint& point : points) {
     if (is_wanted(point.mark)) shown.push_back(point.at);
@@ -154,39 +148,15 @@ Window critical_window(const NyquistPicture& picture, const std::vector<KeyPoint
   for (const KeyPoint& point : points) {
     if (is_finite(point.at) && std::abs(point.at) <= reach * radius) shown.push_back(point.at);
   }
-  return window_around(shown, aspect);
+  return window_around(shown, size);
 }
 
 // ---- marks on the curves ------------------------------------------------------------------------
 
-struct CurveMark {
+/// A point of a curve that may be marked.
+struct Candidate {
   Complex at;
   std::string text;
-};
-
-bool is_clear(const Complex& place, const std::vector<Complex>& taken, double distance) {
-  return std::none_of(taken.begin(), taken.end(),
-                      [&](const Complex& other) { return std::abs(place - other) < distance; });
-}
-
-/// Takes candidates in their order if they lie in the window with room around them.
-class MarkChooser {
- public:
-  MarkChooser(const Window& window, std::vector<Complex> taken)
-      : window_(window), taken_(std::move(taken)) {}
-
-  void offer(const Complex& at, const std::string& text, std::vector<CurveMark>& marks) {
-    constexpr double room = 0.1;
-    if (!is_finite(at) || !window_.holds(at, -0.03)) return;
-    const Complex place = window_.on_paper(at);
-    if (!is_clear(place, taken_, room)) return;
-    taken_.push_back(place);
-    marks.push_back({at, text});
-  }
-
- private:
-  const Window& window_;
-  std::vector<Complex> taken_;
 };
 
 /// 1, 2, 5, 3, 1.5 and 7 times powers of ten, the roundest first.
@@ -198,262 +168,167 @@ std::vector<double> round_numbers() {
   return numbers;
 }
 
-std::vector<CurveMark> frequency_marks(const NyquistPicture& picture, MarkChooser& chooser) {
-  std::vector<CurveMark> marks;
-  const bool in_hertz = !picture.is_normalized;
+/// The roundest first, of L.
+std::vector<Candidate> frequencies(const NyquistPicture& picture) {
+  std::vector<Candidate> candidates;
   for (const double number : round_numbers()) {
-    const double frequency = in_hertz ? turn * number : number;
-    const std::string text = significant(number, label_digits);
-    chooser.offer(loop_at(picture.analyses.front().loop, frequency),
-                  in_hertz ? text + " Hz" : text + " ω_n", marks);
+    const double frequency = picture.is_normalized ? number : turn * number;
+    candidates.push_back(
+        {loop_at(picture.analyses.front().loop, frequency),
+         significant(number, label_digits) + (picture.is_normalized ? " ω_n" : " Hz")});
   }
-  return marks;
+  return candidates;
 }
 
-std::vector<CurveMark> amplitude_marks(const DescribingAnalysis& analysis, MarkChooser& chooser) {
+/// The most telling first, of −1/N.
+std::vector<Candidate> amplitudes(const DescribingAnalysis& analysis) {
   const AmplitudeScale scale = scale_of(analysis.nonlinearity);
   std::vector<double> numbers = {2.0, 1.5, 1.2, 5.0, 1.1, 3.0, 1.0, 1.05, 10.0, 1.02, 1.01, 0.8};
   if (!scale.is_relative) numbers = round_numbers();
-  std::vector<CurveMark> marks;
+  std::vector<Candidate> candidates;
   for (const double number : numbers) {
     const double amplitude = number * scale.unit;
     if (amplitude <= scale.least) continue;
-    const std::string unit = scale.is_relative ? std::string(" ") + scale.name : "";
-    chooser.offer(inverse_gain(analysis.nonlinearity, amplitude),
-                  significant(number, label_digits) + unit, marks);
+    candidates.push_back({inverse_gain(analysis.nonlinearity, amplitude),
+                          significant(number, label_digits) +
+                              (scale.is_relative ? std::string(" ") + scale.name : "")});
   }
-  return marks;
-}
-
-/// Mean width of a letter of the labels, in heights of the frame.
-double letter_width(PictureFormat format) {
-  switch (format) {
-    case PictureFormat::svg:
-      return 0.017;
-    case PictureFormat::png:
-      return 0.0155;
-    case PictureFormat::pdf:
-      return 0.0125;
-  }
-  return 0.0;
+  return candidates;
 }
 
 // ---- the drawing --------------------------------------------------------------------------------
 
-struct CurveStyle {
-  const char* colour;
-  const char* dash;
-};
-// Colours that colour-blind readers distinguish (Okabe and Ito); dashes do the same in grey.
-constexpr CurveStyle loop_style = {"#0072b2", "1"};
-constexpr std::array inverse_styles = {CurveStyle{"#d55e00", "(10,4)"},
-                                       CurveStyle{"#009e73", "(4,3)"},
-                                       CurveStyle{"#cc79a7", "(12,3,3,3)"}};
-
 struct DrawnCurve {
-  std::string name;
+  Layer layer;
   Trace trace;
-  CurveStyle style;
-  std::vector<CurveMark> marks;
+  std::vector<Candidate> marks;
 };
 
-class NyquistDrawing {
- public:
-  NyquistDrawing(const NyquistPicture& picture, PictureFormat format, double aspect)
-      : points_(key_points(picture)),
-        window_(critical_window(picture, points_, aspect)),
-        format_(format) {
-    trace_curves(picture);
-    choose_marks(picture);
-    const Complex opposite =
-        window_.corner + Complex{window_.aspect * window_.height, window_.height};
-    script_ = fmt::format(
-        "set lmargin screen {:.3g}\nset grid linewidth 0.5 linecolor rgb '#dddddd'\n"
-        "set xzeroaxis linewidth 0.8 linecolor rgb '#888888'\n"
-        "set yzeroaxis linewidth 0.8 linecolor rgb '#888888'\n"
-        "set xlabel 'real part'\nset ylabel 'imaginary part'\n"
-        "set xrange [{:.7g}:{:.7g}]\nset yrange [{:.7g}:{:.7g}]\n",
-        frame_left, window_.corner.real(), opposite.real(), window_.corner.imag(), opposite.imag());
-    for (std::size_t i = 0; i < curves_.size(); ++i) draw_curve(i);
-    draw_points();
-    draw_texts();
+/// The unit of the amplitude marks.
+std::string meaning_of(const DescribingAnalysis& analysis, bool is_normalized) {
+  switch (analysis.part) {
+    case DescribedPart::torque_limit:
+      return ", A by the limit T_max";
+    case DescribedPart::coulomb_friction:
+      return is_normalized ? ", A in rad ω_n" : ", A in rad/s";
+    case DescribedPart::dead_band:
+    case DescribedPart::relay:
+      return ", A by the threshold";
+    default:
+      return ", A by half the gap, h";
   }
+}
 
-  std::string script() const { return script_ + data_ + plot_command(layers_); }
-  const std::vector<std::string>& legend() const { return legend_; }
-
- private:
-  void trace_curves(const NyquistPicture& picture) {
-    const TransferFunction& loop = picture.analyses.front().loop;
-    curves_.push_back({"L(jω)", traced_loop(loop, window_), loop_style, {}});
-    for (std::size_t i = 0; i < picture.analyses.size(); ++i) {
-      const DescribingAnalysis& analysis = picture.analyses[i];
-      curves_.push_back(
-          {"−1/N(A)" + distinction(picture, analysis) + meaning(analysis, picture.is_normalized),
-           traced_inverse_gain(analysis.nonlinearity, window_),
-           inverse_styles[i % inverse_styles.size()],
-           {}});
-    }
+std::vector<DrawnCurve> traced_curves(const NyquistPicture& picture, const Window& window) {
+  const std::array inverse_styles = {Layer{.colour = "#d55e00", .dashes = "10,4"},
+                                     Layer{.colour = "#009e73", .dashes = "4,3"},
+                                     Layer{.colour = "#cc79a7", .dashes = "12,3,3,3"}};
+  const TransferFunction& loop = picture.analyses.front().loop;
+  std::vector<DrawnCurve> curves = {
+      {{.name = "L(jω)", .colour = "#0072b2"}, traced_loop(loop, window), frequencies(picture)}};
+  for (std::size_t i = 0; i < picture.analyses.size(); ++i) {
+    const DescribingAnalysis& analysis = picture.analyses[i];
+    Layer layer = inverse_styles[i % inverse_styles.size()];
+    layer.name =
+        "−1/N(A)" + distinction(picture, analysis) + meaning_of(analysis, picture.is_normalized);
+    curves.push_back({std::move(layer), traced_inverse_gain(analysis.nonlinearity, window),
+                      amplitudes(analysis)});
   }
-
-  /// The unit of the amplitude marks.
-  static std::string meaning(const DescribingAnalysis& analysis, bool is_normalized) {
-    switch (analysis.part) {
-      case DescribedPart::torque_limit:
-        return ", A by the limit T_max";
-      case DescribedPart::coulomb_friction:
-        return is_normalized ? ", A in rad ω_n" : ", A in rad/s";
-      case DescribedPart::dead_band:
-      case DescribedPart::relay:
-        return ", A by the threshold";
-      default:
-        return ", A by half the gap, h";
-    }
-  }
-
-  void choose_marks(const NyquistPicture& picture) {
-    std::vector<Complex> taken = {window_.on_paper(0.0)};  // where unnumbered marks crowd
-    for (const KeyPoint& point : points_) {
-      if (is_finite(point.at)) taken.push_back(window_.on_paper(point.at));
-    }
-    MarkChooser chooser(window_, taken);
-    for (std::size_t i = 0; i < picture.analyses.size(); ++i) {
-      curves_[i + 1].marks = amplitude_marks(picture.analyses[i], chooser);
-    }
-    curves_[0].marks = frequency_marks(picture, chooser);
-  }
-
-  void draw_curve(std::size_t number) {
-    const DrawnCurve& curve = curves_[number];
-    DataBlock line(fmt::format("curve{}", number));
-    bool was_seen = true;
+  for (DrawnCurve& curve : curves) {
+    constexpr double outside = 240.0;
     for (const TracePoint& point : curve.trace) {
-      const bool is_seen = is_finite(point.value) && window_.holds(point.value, 0.5);
-      if (is_seen) line.row(point.value.real(), point.value.imag());
-      if (!is_seen && was_seen) line.gap();
-      was_seen = is_seen;
-    }
-    if (!line.is_empty()) {
-      data_ += line.text();
-      layers_.push_back(fmt::format(
-          "$curve{} using 1:2 with lines linewidth 1.8 dashtype {} linecolor rgb '{}' title {}",
-          number, curve.style.dash, curve.style.colour, gearlash::quoted(curve.name)));
-      legend_.push_back(curve.name);
-    }
-    DataBlock marks(fmt::format("marks{}", number));
-    for (const CurveMark& mark : curve.marks) marks.row(mark.at.real(), mark.at.imag());
-    if (!marks.is_empty()) {
-      data_ += marks.text();
-      layers_.push_back(fmt::format(
-          "$marks{} using 1:2 with points pointtype 7 pointsize 0.45 linecolor rgb '{}' notitle",
-          number, curve.style.colour));
-    }
-    draw_arrow(curve);
-  }
-
-  /// Draws an arrow towards a growing parameter, in the middle of the visible curve.
-  void draw_arrow(const DrawnCurve& curve) {
-    std::vector<Complex> seen;
-    for (const TracePoint& point : curve.trace) {
-      if (!is_finite(point.value) || !window_.holds(point.value)) continue;
-      if (seen.empty() || std::abs(point.value - seen.back()) > 0.004 * window_.height) {
-        seen.push_back(point.value);
-      }
-    }
-    constexpr std::size_t apart = 4;
-    if (seen.size() < 2 * apart) return;
-    const Complex tip = seen[seen.size() * 2 / 5 + apart];
-    const Complex tail = seen[seen.size() * 2 / 5];
-    script_ += fmt::format(
-        "set arrow from {:.7g},{:.7g} to {:.7g},{:.7g} head filled size screen 0.013,18 "
-        "linewidth 1.8 linecolor rgb '{}'\n",
-        tail.real(), tail.imag(), tip.real(), tip.imag(), curve.style.colour);
-    arrows_.push_back(window_.on_paper(tip));
-  }
-
-  static int point_type(MarkKind mark) {
-    switch (mark) {
-      case MarkKind::stable:
-        return 7;
-      case MarkKind::unstable:
-        return 6;
-      case MarkKind::exact_frequency:
-        return 13;
-      case MarkKind::exact_amplitude:
-        return 12;
-    }
-    return 0;
-  }
-
-  void draw_points() {
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const KeyPoint& point = points_[i];
-      const std::string style =
-          fmt::format("with points pointtype {} pointsize 1.2 linewidth 1.6 linecolor rgb 'black'",
-                      point_type(point.mark));
-      std::string name = point.legend;
-      if (is_finite(point.at) && window_.holds(point.at)) {
-        DataBlock block(fmt::format("point{}", i));
-        block.row(point.at.real(), point.at.imag());
-        data_ += block.text();
-        layers_.push_back(
-            fmt::format("$point{} using 1:2 {} title {}", i, style, gearlash::quoted(name)));
+      if (is_finite(point.value) && window.holds(point.value, outside)) {
+        curve.layer.points.push_back({point.value.real(), point.value.imag()});
       } else {
-        name += is_finite(point.at) ? "; outside" : ": none, too small";
-        layers_.push_back(fmt::format("keyentry {} title {}", style, gearlash::quoted(name)));
+        append({}, curve.layer.points);
       }
-      legend_.push_back(name);
     }
   }
+  return curves;
+}
 
-  std::vector<Complex> obstacles() const {
-    std::vector<Complex> found = arrows_;
-    for (const DrawnCurve& curve : curves_) {
-      Complex last{-1.0, -1.0};
-      for (const TracePoint& point : curve.trace) {
-        if (!is_finite(point.value) || !window_.holds(point.value)) continue;
-        const Complex place = window_.on_paper(point.value);
-        if (std::abs(place - last) < 0.008) continue;
-        found.push_back(place);
-        last = place;
+/// The curve's visible points on paper, not too close.
+PaperLine seen_of(const DrawnCurve& curve, const Window& window) {
+  PaperLine seen;
+  for (const TracePoint& point : curve.trace) {
+    if (!is_finite(point.value) || !window.holds(point.value)) continue;
+    const Complex place = window.on_paper(point.value);
+    if (seen.empty() || std::abs(place - seen.back()) > 2.0) seen.push_back(place);
+  }
+  return seen;
+}
+
+/// The outline of an arrow's head towards a growing parameter, in the middle of the visible curve.
+MapCurve arrow_of(const PaperLine& seen, const Window& window) {
+  constexpr std::size_t apart = 4;
+  if (seen.size() < 2 * apart) return {};
+  const Complex tail = seen[seen.size() * 2 / 5];
+  const Complex way = seen[seen.size() * 2 / 5 + apart] - tail;
+  const Complex unit = way / std::abs(way);
+  MapCurve outline;
+  for (const Complex& corner : {Complex{13.0, 0.0}, Complex{0.0, 4.5}, Complex{0.0, -4.5}}) {
+    const Complex place = window.from_paper(tail + corner * unit);
+    outline.push_back({place.real(), place.imag()});
+  }
+  return outline;
+}
+
+Layer layer_of(const KeyPoint& point, const Window& window) {
+  Layer layer{.kind = LayerKind::marks, .name = point.legend, .mark = point.mark, .size = 1.2};
+  if (is_finite(point.at) && window.holds(point.at)) {
+    layer.points = {{point.at.real(), point.at.imag()}};
+  } else {
+    layer.name += is_finite(point.at) ? "; outside" : ": none, too small";
+  }
+  return layer;
+}
+
+MapPoint map_point(const Complex& point) { return {point.real(), point.imag()}; }
+
+/// Adds the marks of the curves that have room around them, and all texts.
+void add_marks(const std::vector<KeyPoint>& points, const std::vector<DrawnCurve>& curves,
+               const Window& window, Panel& panel) {
+  std::vector<PaperLine> lines;
+  for (const DrawnCurve& curve : curves) lines.push_back(seen_of(curve, window));
+  std::vector<Complex> taken = {window.on_paper(0.0)};  // where unnumbered marks crowd
+  for (const KeyPoint& point : points) {
+    if (!is_finite(point.at)) continue;
+    taken.push_back(window.on_paper(point.at));
+    lines.push_back({taken.back()});
+  }
+  TextPlacer placer(lines, window.size.imag());
+  const auto add_text = [&](const Complex& at, PlotText text) {
+    const auto place = placer.beside(window.on_paper(at), text.text, text.size, text.is_bold);
+    if (!place) return false;
+    text.at = map_point(window.from_paper(*place));
+    panel.texts.push_back(std::move(text));
+    return true;
+  };
+  for (const KeyPoint& point : points) {
+    if (is_finite(point.at) && window.holds(point.at)) {
+      add_text(point.at, {.text = point.label, .is_bold = true});
+    }
+  }
+  constexpr double room = 48.0;  // pixels
+  constexpr double margin = 14.0;
+  for (auto curve = curves.rbegin(); curve != curves.rend(); ++curve) {
+    Layer marks{.kind = LayerKind::marks, .colour = curve->layer.colour, .size = 0.45};
+    for (const Candidate& mark : curve->marks) {
+      if (!is_finite(mark.at) || !window.holds(mark.at, -margin)) continue;
+      const Complex place = window.on_paper(mark.at);
+      const bool is_clear = std::none_of(taken.begin(), taken.end(), [&](const Complex& other) {
+        return std::abs(place - other) < room;
+      });
+      if (!is_clear ||
+          !add_text(mark.at, {.text = mark.text, .colour = marks.colour, .size = 0.8})) {
+        continue;
       }
-      for (const CurveMark& mark : curve.marks) found.push_back(window_.on_paper(mark.at));
+      taken.push_back(place);
+      marks.points.push_back(map_point(mark.at));
     }
-    // Marks of points are larger than those of curves.
-    for (const KeyPoint& point : points_) {
-      if (is_finite(point.at)) found.insert(found.end(), 4, window_.on_paper(point.at));
-    }
-    return found;
+    panel.layers.push_back(std::move(marks));
   }
-
-  void draw_texts() {
-    TextPlacer placer(obstacles(), letter_width(format_), window_.aspect);
-    const auto draw = [&](const Complex& at, const std::string& text, const char* colour,
-                          bool must) {
-      if (!is_finite(at) || !window_.holds(at)) return;
-      const auto place = placer.place(window_.on_paper(at), text, must);
-      if (!place) return;
-      const Complex centre = window_.corner + window_.height * *place;
-      script_ += fmt::format("set label {} at {:.7g},{:.7g} center front textcolor rgb '{}'\n",
-                             gearlash::quoted(text, must ? "/:Bold*0.8" : "/*0.8"), centre.real(),
-                             centre.imag(), colour);
-    };
-    for (const KeyPoint& point : points_) draw(point.at, point.label, "black", true);
-    for (const DrawnCurve& curve : curves_) {
-      for (const CurveMark& mark : curve.marks) draw(mark.at, mark.text, curve.style.colour, false);
-    }
-  }
-
-  std::vector<KeyPoint> points_;
-  Window window_;
-  PictureFormat format_;
-  std::vector<DrawnCurve> curves_;
-  std::vector<Complex> arrows_;  ///< on paper
-  std::string script_;
-  std::string data_;
-  std::vector<std::string> layers_;
-  std::vector<std::string> legend_;
-};
+}
 
 }  // namespace
 
@@ -472,21 +347,31 @@ std::vector<DescribingAnalysis> loop_analyses(const std::vector<DescribingAnalys
   return found;
 }
 
-std::string draw_nyquist(const NyquistPicture& picture, PictureFormat format) {
+Plot nyquist_plot(const NyquistPicture& picture) {
+  Panel panel;
+  const std::vector<KeyPoint> points = key_points(picture);
+  const Window window = critical_window(picture, points, {panel_width, panel.height});
+  const Complex opposite = window.from_paper(window.size);
+  panel.x = {.name = "real part", .low = window.corner.real(), .high = opposite.real()};
+  panel.y = {.name = "imaginary part", .low = window.corner.imag(), .high = opposite.imag()};
+  panel.layers.push_back({.colour = "#888888",
+                          .width = 0.8,
+                          .points = joined({{{*panel.x.low, 0.0}, {*panel.x.high, 0.0}},
+                                            {{0.0, *panel.y.low}, {0.0, *panel.y.high}}})});
+  const std::vector<DrawnCurve> curves = traced_curves(picture, window);
+  for (const DrawnCurve& curve : curves) {
+    if (!curve.layer.points.empty()) panel.layers.push_back(curve.layer);
+    panel.layers.push_back({.kind = LayerKind::area,
+                            .colour = curve.layer.colour,
+                            .points = arrow_of(seen_of(curve, window), window)});
+  }
+  for (const KeyPoint& point : points) panel.layers.push_back(layer_of(point, window));
+  add_marks(points, curves, window, panel);
   const bool has_exact = std::any_of(picture.exact.begin(), picture.exact.end(), is_drawn);
-  const std::string subtitle =
-      std::string("cycles are predicted where L(jω) = −1/N(A)") +
-      (has_exact ? "; were that exact, the diamonds would be one point" : "");
-  constexpr double letters = 0.72;
-  // The frame's height depends on the legend, which depends slightly on the frame's contents.
-  constexpr double usual_aspect = 1.7;
-  const Legend first =
-      legend_below(NyquistDrawing(picture, format, usual_aspect).legend(), format, letters);
-  const double aspect = frame_width * paper_width / ((frame_top - first.bottom) * paper_height);
-  const NyquistDrawing drawing(picture, format, aspect);
-  return run_gnuplot(
-      terminal(format) + heading(picture.title, subtitle) + first.commands + drawing.script(),
-      picture.title);
+  return plot_of(picture.title,
+                 std::string("cycles are predicted where L(jω) = −1/N(A)") +
+                     (has_exact ? "; were that exact, the diamonds would be one point" : ""),
+                 std::move(panel));
 }
 
 }  // namespace gearlash

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "input/units.hpp"
-#include "picture/picture.hpp"
+#include "picture/plot.hpp"
 #include "question/loop/describing/describing.hpp"
 
 namespace gearlash {
@@ -24,15 +24,12 @@ struct NyquistPicture {
 std::vector<drive::DescribingAnalysis> loop_analyses(
     const std::vector<drive::DescribingAnalysis>& analyses, drive::DescribedPart part);
 
-/// Draws L(jω) with marks of frequency, and −1/N(A) with marks of amplitude and an arrow towards
+/// L(jω) with marks of frequency, and −1/N(A) with marks of amplitude and an arrow towards
 /// growing A. Cycles lie where the curves meet (stable: full circles, unstable: open). Each exact
 /// cycle has two points, L(jω) and −1/N(A), with its motor's motion taken for a sine; they would
 /// coincide if the method were exact. Real and imaginary parts have the same scale. The window
 /// shows the stable cycles and the exact points; unstable cycles outside it appear only in the
 /// legend.
-///
-/// Returns the bytes of the picture; the same analyses give the same SVG. Throws OutputError if
-/// gnuplot is missing or fails.
-std::string draw_nyquist(const NyquistPicture& picture, PictureFormat format);
+Plot nyquist_plot(const NyquistPicture& picture);
 
 }  // namespace gearlash

@@ -2,17 +2,51 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "output/columns.hpp"
 
 namespace gearlash {
 namespace {
 
-Axis scale_of(const ChartAxis& axis) {
-  return {.values = {axis.low.value(), axis.high.value()}, .logarithmic = axis.logarithmic};
+constexpr double unseen = 0.15;
+constexpr double letter_width = 9.2;
+constexpr double half_letter = 6.5;  ///< of a text's height
+
+double share_of(const PlotAxis& axis, double value) {
+  const double low = axis.low.value();
+  const double high = axis.high.value();
+  return axis.logarithmic ? std::log(value / low) / std::log(high / low)
+                          : (value - low) / (high - low);
 }
 
-void keep_outliers(const PaperLine& line, std::size_t first, std::size_t last, double tolerance,
+double value_at_share(const PlotAxis& axis, double share) {
+  const double low = axis.low.value();
+  const double high = axis.high.value();
+  return axis.logarithmic ? low * std::pow(high / low, share) : low + share * (high - low);
+}
+
+double distance_from_chord(const PaperPoint& point, const PaperPoint& from, const PaperPoint& to) {
+  const PaperPoint chord = to - from;
+  if (std::norm(chord) == 0.0) return std::abs(point - from);
+  const double share =
+      std::clamp((std::conj(chord) * (point - from)).real() / std::norm(chord), 0.0, 1.0);
+  return std::abs(point - from - share * chord);
+}
+
+double distance_from_line(const PaperPoint& point, const PaperLine& line) {
+  double nearest =
+      line.empty() ? std::numeric_limits<double>::infinity() : std::abs(point - line.front());
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    nearest = std::min(nearest, distance_from_chord(point, line[i], line[i + 1]));
+  }
+  return nearest;
+}
+
+void keep_outliers(const PaperLine& line, std::size_t first, std::size_t last,
                    std::vector<bool>& kept) {
-  double farthest = tolerance;
+  double farthest = unseen;
   std::size_t outlier = first;
   for (std::size_t i = first + 1; i < last; ++i) {
     const double away = distance_from_chord(line[i], line[first], line[last]);
@@ -22,67 +56,168 @@ void keep_outliers(const PaperLine& line, std::size_t first, std::size_t last, d
   }
   if (outlier == first) return;
   kept[outlier] = true;
-  keep_outliers(line, first, outlier, tolerance, kept);
-  keep_outliers(line, outlier, last, tolerance, kept);
+  keep_outliers(line, first, outlier, kept);
+  keep_outliers(line, outlier, last, kept);
+}
+
+/// The width in pixels, without the "_" of subscripts.
+double width_of(const std::string& text, double size) {
+  const auto marks = std::count(text.begin(), text.end(), '_');
+  return size * letter_width *
+         (static_cast<double>(width_in_columns(text)) - static_cast<double>(marks));
+}
+
+/// The line up to a way along it, and the rest.
+std::pair<PaperLine, PaperLine> cut(const PaperLine& line, double way) {
+  std::size_t next = 1;
+  while (next + 1 < line.size() && way > std::abs(line[next] - line[next - 1])) {
+    way -= std::abs(line[next] - line[next - 1]);
+    ++next;
+  }
+  const double chord = std::abs(line[next] - line[next - 1]);
+  const PaperPoint at =
+      line[next - 1] + (chord > 0.0 ? way / chord : 0.0) * (line[next] - line[next - 1]);
+  const auto middle = line.begin() + static_cast<std::ptrdiff_t>(next);
+  std::pair<PaperLine, PaperLine> parts{{line.begin(), middle}, {at}};
+  parts.first.push_back(at);
+  parts.second.insert(parts.second.end(), middle, line.end());
+  return parts;
+}
+
+double slope_of(const PaperPoint& direction) {
+  const double slope = std::arg(direction) * 180.0 / std::numbers::pi;
+  return slope > 90.0 ? slope - 180.0 : slope <= -90.0 ? slope + 180.0 : slope;
+}
+
+/// Points along the middle of a text.
+PaperLine middle_of(const PaperPoint& from, const PaperPoint& to) {
+  const double parts = std::ceil(std::abs(to - from) / half_letter) + 1.0;
+  PaperLine points;
+  for (double i = 0.0; i <= parts; i += 1.0) points.push_back(from + i / parts * (to - from));
+  return points;
 }
 
 }  // namespace
 
-double distance(const PaperPoint& one, const PaperPoint& other) {
-  return std::hypot(one.right - other.right, one.up - other.up);
+PaperPoint Paper::on_paper(const MapPoint& point) const {
+  return {panel_width * share_of(x_, point.x), height_ * share_of(y_, point.y)};
 }
 
-double distance_from_chord(const PaperPoint& point, const PaperPoint& from, const PaperPoint& to) {
-  const double right = to.right - from.right;
-  const double up = to.up - from.up;
-  const double length_squared = right * right + up * up;
-  if (length_squared == 0.0) return distance(point, from);
-  const double share = std::clamp(
-      ((point.right - from.right) * right + (point.up - from.up) * up) / length_squared, 0.0, 1.0);
-  return distance(point, {from.right + share * right, from.up + share * up});
+MapPoint Paper::on_map(const PaperPoint& point) const {
+  return {value_at_share(x_, point.real() / panel_width),
+          value_at_share(y_, point.imag() / height_)};
+}
+
+PaperLine Paper::on_paper(const MapCurve& curve) const {
+  PaperLine line;
+  for (const MapPoint& point : curve) line.push_back(on_paper(point));
+  return line;
+}
+
+MapCurve Paper::on_map(const PaperLine& line) const {
+  MapCurve curve;
+  for (const PaperPoint& point : line) curve.push_back(on_map(point));
+  return curve;
 }
 
 double length_of(const PaperLine& line) {
   double length = 0.0;
-  for (std::size_t i = 0; i + 1 < line.size(); ++i) length += distance(line[i], line[i + 1]);
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) length += std::abs(line[i] - line[i + 1]);
   return length;
 }
 
 double area_within(const PaperLine& line) {
   double twice = 0.0;
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    twice += line[i].right * line[i + 1].up - line[i + 1].right * line[i].up;
+    twice += (std::conj(line[i]) * line[i + 1]).imag();
   }
   return 0.5 * twice;
 }
 
-Paper::Paper(const ChartAxis& x, const ChartAxis& y) : x_(scale_of(x)), y_(scale_of(y)) {}
-
-PaperPoint Paper::point_on_paper(const MapPoint& point) const {
-  return {width * position_on(x_, point.x), height * position_on(y_, point.y)};
-}
-
-MapPoint Paper::point_on_map(const PaperPoint& point) const {
-  return {value_at(x_, point.right / width), value_at(y_, point.up / height)};
-}
-
-PaperLine Paper::line_on_paper(const MapCurve& curve) const {
-  PaperLine line;
-  line.reserve(curve.size());
-  for (const MapPoint& point : curve) line.push_back(point_on_paper(point));
-  return line;
-}
-
-PaperLine thinned(const PaperLine& line, double tolerance) {
+PaperLine thinned(const PaperLine& line) {
   if (line.size() < 3) return line;
   std::vector<bool> kept(line.size(), false);
   kept.front() = kept.back() = true;
-  keep_outliers(line, 0, line.size() - 1, tolerance, kept);
+  keep_outliers(line, 0, line.size() - 1, kept);
   PaperLine thin;
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (kept[i]) thin.push_back(line[i]);
   }
   return thin;
+}
+
+std::optional<PaperPoint> TextPlacer::beside(const PaperPoint& point, const std::string& text,
+                                             double size, bool must) {
+  const double half_width = 0.5 * width_of(text, size);
+  std::optional<PaperPoint> best;
+  double best_score = must ? -std::numeric_limits<double>::infinity() : 0.0;
+  for (const double distance : {5.0, 12.0, 22.0, 36.0}) {
+    for (int direction = 0; direction < 16; ++direction) {
+      constexpr double enough = 4.0;  // pixels
+      const PaperPoint way = std::polar(1.0, std::numbers::pi * direction / 8.0);
+      const PaperPoint centre = point + PaperPoint{way.real() * (half_width + distance),
+                                                   way.imag() * (half_letter + distance)};
+      const double clear = clearance(centre - half_width, centre + half_width, nullptr);
+      const double score = std::min(clear, enough) - 0.02 * distance * (clear > 0.0 ? 1.0 : 0.0);
+      if (score <= best_score) continue;
+      best_score = score;
+      best = centre;
+    }
+  }
+  if (best) take(*best - half_width, *best + half_width);
+  return best;
+}
+
+std::optional<TextPlacer::InLine> TextPlacer::along(const PaperLine& line, const std::string& text,
+                                                    double size) {
+  const double length = length_of(line);
+  const double gap = width_of(text, size) + letter_width;
+  std::optional<InLine> best;
+  double best_score = 0.0;
+  constexpr double candidates = 60.0;
+  constexpr double straight = 0.96;
+  for (double i = 0.0; i <= candidates && length > 2.0 * gap; i += 1.0) {
+    const double begin = 0.25 * gap + (length - 1.5 * gap) * i / candidates;
+    auto [before, rest] = cut(line, begin);
+    auto [within, after] = cut(rest, gap);
+    const PaperPoint from = within.front();
+    const PaperPoint to = within.back();
+    if (std::abs(to - from) < straight * gap) continue;
+    const double clear = clearance(from, to, &line);
+    const double from_middle = std::abs(2.0 * i / candidates - 1.0);
+    const double score =
+        std::min(clear, 8.0 * half_letter) + 2.0 * half_letter * (1.0 - from_middle);
+    if (clear <= 0.0 || score <= best_score) continue;
+    best_score = score;
+    best = {0.5 * (from + to), slope_of(to - from), {std::move(before), std::move(after)}};
+  }
+  if (best) {
+    const PaperPoint half = std::polar(0.5 * gap, best->slope * std::numbers::pi / 180.0);
+    take(best->centre - half, best->centre + half);
+  }
+  return best;
+}
+
+double TextPlacer::clearance(const PaperPoint& from, const PaperPoint& to,
+                             const PaperLine* own) const {
+  double clear = std::numeric_limits<double>::infinity();
+  for (const PaperPoint& point : middle_of(from, to)) {
+    clear = std::min({clear, point.real(), panel_width - point.real(), point.imag() - half_letter,
+                      height_ - point.imag() - half_letter});
+    for (const PaperPoint& other : taken_) {
+      clear = std::min(clear, std::abs(point - other) - 2.0 * half_letter);
+    }
+    for (const PaperLine& line : lines_) {
+      if (own != nullptr && !line.empty() && line.front() == own->front()) continue;
+      clear = std::min(clear, distance_from_line(point, line) - half_letter);
+    }
+  }
+  return clear;
+}
+
+void TextPlacer::take(const PaperPoint& from, const PaperPoint& to) {
+  const PaperLine points = middle_of(from, to);
+  taken_.insert(taken_.end(), points.begin(), points.end());
 }
 
 }  // namespace gearlash

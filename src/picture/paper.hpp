@@ -1,53 +1,75 @@
-// A map's curves in lengths on paper, so that straightness, distance and slope are those seen.
+// Points of a panel in pixels, so that straightness, distance and slope are those seen.
 #pragma once
 
+#include <complex>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
-#include "picture/line_chart.hpp"
-#include "question/map/region_boundary.hpp"
+#include "picture/plot.hpp"
 
 namespace gearlash {
 
-/// Distances to the right of and above the corner of the axes, in ninths of the picture's width.
-struct PaperPoint {
-  double right = 0.0;
-  double up = 0.0;
-};
+/// Pixels to the right of and above the lower left corner of the axes.
+using PaperPoint = std::complex<double>;
 using PaperLine = std::vector<PaperPoint>;
 
-double distance(const PaperPoint& one, const PaperPoint& other);
+/// The rectangle between the axes of a panel that is panel_width wide.
+class Paper {
+ public:
+  /// Precondition: both axes have their ends.
+  explicit Paper(const Panel& panel) : x_(panel.x), y_(panel.y), height_(panel.height) {}
 
-/// The distance to the nearest point between `from` and `to`.
-double distance_from_chord(const PaperPoint& point, const PaperPoint& from, const PaperPoint& to);
+  double height() const { return height_; }
+  PaperPoint on_paper(const MapPoint& point) const;
+  MapPoint on_map(const PaperPoint& point) const;
+  PaperLine on_paper(const MapCurve& curve) const;
+  MapCurve on_map(const PaperLine& line) const;
+
+ private:
+  PlotAxis x_;
+  PlotAxis y_;
+  double height_;
+};
 
 double length_of(const PaperLine& line);
 
 /// Of a closed line, positive if it runs counterclockwise.
 double area_within(const PaperLine& line);
 
-/// The rectangle between the axes of a map.
-class Paper {
+/// The line reduced to few of its points: by less than is visible (Douglas and Peucker, 1973).
+PaperLine thinned(const PaperLine& line);
+
+/// Finds places for texts where they cover neither the lines nor each other.
+class TextPlacer {
  public:
-  static constexpr double left_margin = 0.11;  ///< shares of the picture
-  static constexpr double right_margin = 0.965;
-  static constexpr double bottom_margin = 0.185;
-  static constexpr double top_margin = 0.88;
-  static constexpr double width = 9.0 * (right_margin - left_margin);
-  static constexpr double height = 7.0 * (top_margin - bottom_margin);
+  TextPlacer(std::vector<PaperLine> lines, double height)
+      : lines_(std::move(lines)), height_(height) {}
 
-  /// Precondition: both axes have their ends.
-  Paper(const ChartAxis& x, const ChartAxis& y);
+  /// The center of a text beside a point, in letters of this size. Nothing if there is no free
+  /// place, unless `must` is set.
+  std::optional<PaperPoint> beside(const PaperPoint& point, const std::string& text, double size,
+                                   bool must);
 
-  PaperPoint point_on_paper(const MapPoint& point) const;
-  MapPoint point_on_map(const PaperPoint& point) const;
-  PaperLine line_on_paper(const MapCurve& curve) const;
+  /// A place for a text in a gap of the line, where that is straight and far from all else.
+  struct InLine {
+    PaperPoint centre;
+    double slope;                  ///< degrees, in (−90, 90]
+    std::vector<PaperLine> parts;  ///< the line without the gap
+  };
+  /// Nothing if there is no good place.
+  std::optional<InLine> along(const PaperLine& line, const std::string& text, double size);
 
  private:
-  Axis x_;
-  Axis y_;
-};
+  /// From a text whose middle runs from one point to the other to the nearest edge, text or line
+  /// other than `own`; negative if it would touch.
+  double clearance(const PaperPoint& from, const PaperPoint& to, const PaperLine* own) const;
+  void take(const PaperPoint& from, const PaperPoint& to);
 
-/// The line reduced to few of its points, within `tolerance` (Douglas and Peucker, 1973).
-PaperLine thinned(const PaperLine& line, double tolerance);
+  std::vector<PaperLine> lines_;
+  double height_;
+  std::vector<PaperPoint> taken_;
+};
 
 }  // namespace gearlash

@@ -1,7 +1,6 @@
 #include "picture/phase_portrait.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -86,7 +85,7 @@ class Ways {
 std::vector<const drive::Outcome*> starts_within(const StartPlane& plane,
                                                  const drive::AttractorSearch& search,
                                                  double reference) {
-  constexpr std::size_t most = 10;
+  constexpr std::size_t most = 8;  // more lines would hide the cycles
   std::vector<const drive::Outcome*> within;
   for (const drive::Outcome& outcome : search.outcomes) {
     const drive::ShaftStates& start = outcome.start;
@@ -167,30 +166,11 @@ void add_portrait(MotionPicture& picture, const drive::ReducedDrive& reduced,
                                .leads = role_of(basins->kinds[i])});
     }
     for (const MapCurve& curve : basins->borders) {
-      std::vector<std::pair<double, double>>& drawn = window.borders.emplace_back();
+      MapCurve& drawn = window.borders.emplace_back();
       for (const MapPoint& point : curve) {
-        drawn.emplace_back(angle.from_radians(point.x), angle.from_radians(point.y));
+        drawn.push_back({angle.from_radians(point.x), angle.from_radians(point.y)});
       }
     }
-  }
-  // From the edge of the plane, where the end is known.
-  constexpr std::array<std::array<double, 2>, 6> corners = {
-      {{-1.0, 0.0}, {1.0, 0.0}, {-0.5, 1.0}, {0.5, 1.0}, {-0.5, -1.0}, {0.5, -1.0}}};
-  for (const auto& [right, up] : corners) {
-    MotionRole role = role_of(kind_of(search.outcomes.front().end));
-    if (basins != nullptr) {
-      const auto nearest = [](double share, std::size_t count) {
-        return static_cast<std::size_t>(
-            std::lround(0.5 * (share + 1.0) * static_cast<double>(count - 1)));
-      };
-      const std::size_t columns = basins->positions.values.size();
-      role = role_of(basins->kinds[nearest(up, basins->speeds.values.size()) * columns +
-                                   nearest(right, columns)]);
-    } else if (has_several_basins(search)) {
-      break;
-    }
-    picture.motions.push_back(
-        ways.from(start_on_face(reduced, plane, right * plane.position, up * plane.speed), role));
   }
   picture.window = std::move(window);
 }

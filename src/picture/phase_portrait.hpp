@@ -20,8 +20,8 @@ std::optional<StartPlane> plane_to_draw(const MotionPicture& cycles,
 /// Whether starts lead to different ends, so that there are borders.
 bool has_several_basins(const drive::AttractorSearch& search);
 
-/// Limits the picture to the plane, and adds the motions from the search's starts in it, and from
-/// some at its edge. `basins`: nullptr if all starts lead to the same end.
+/// Limits the picture to the plane, and adds the motions from the search's starts in it.
+/// `basins`: nullptr if all starts lead to the same end.
 void add_portrait(MotionPicture& picture, const drive::ReducedDrive& reduced,
                   const drive::AttractorSearch& search, const StartPlane& plane,
                   const Basins* basins);

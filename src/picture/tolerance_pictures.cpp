@@ -3,47 +3,39 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include "picture/bar_chart.hpp"
-#include "picture/line_chart.hpp"
+#include "picture/curve_panel.hpp"
 
 namespace gearlash {
 namespace {
 
-std::string run_in_words(const ToleranceReport& report) {
-  return fmt::format("{} samples, {} % of them hunt", report.study.sampling.samples(),
-                     significant(100.0 * report.study.hunting.value, 3));
+Plot plot_of_run(const ToleranceReport& report, const char* title, Panel panel) {
+  return plot_of(title,
+                 fmt::format("{} samples, {} % of them hunt", report.study.sampling.samples(),
+                             significant(100.0 * report.study.hunting.value, 3)),
+                 std::move(panel));
 }
 
-ChartAxis amplitude_axis(const ToleranceReport& report) {
-  const AngleUnit& unit = report.angle;
-  return {.label = "amplitude of the limit cycle (" + unit.name + ")",
-          .low = 0.0,
-          .high = unit.from_radians(report.study.histogram.edges.back())};
-}
-
-/// Filled in member by member: where an allocation fails within braces in braces, GCC 12 destroys
-/// what they have made twice.
-LineChart chart_of(const ToleranceReport& report, const char* title, ChartAxis y,
-                   ChartCurve curve) {
-  LineChart chart;
-  chart.title = title;
-  chart.subtitle = run_in_words(report);
-  chart.x = amplitude_axis(report);
-  chart.y = std::move(y);
-  chart.curves.push_back(std::move(curve));
-  return chart;
+Plot plot_over_amplitude(const ToleranceReport& report, const char* title, PlotAxis percent,
+                         MapCurve line) {
+  const double last = report.study.histogram.edges.back();
+  Panel panel{.x = {.name = "amplitude of the limit cycle",
+                    .unit = report.angle.name,
+                    .low = 0.0,
+                    .high = report.angle.from_radians(last)},
+              .y = std::move(percent)};
+  add_curves({{.line = std::move(line)}}, 0.0, panel);
+  return plot_of_run(report, title, std::move(panel));
 }
 
 /// The samples that hunt in each bin, in per cent of all samples.
-LineChart distribution_of(const ToleranceReport& report) {
+Plot distribution_of(const ToleranceReport& report) {
   const AmplitudeHistogram& histogram = report.study.histogram;
   const double all = static_cast<double>(report.study.sampling.samples());
-  ChartCurve curve;
+  MapCurve line;
   const auto add = [&](double edge, double percent) {
-    curve.line.push_back({report.angle.from_radians(edge), percent});
+    line.push_back({report.angle.from_radians(edge), percent});
   };
   add(histogram.edges.front(), 0.0);
   for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
@@ -52,19 +44,21 @@ LineChart distribution_of(const ToleranceReport& report) {
     add(histogram.edges[i + 1], percent);
   }
   add(histogram.edges.back(), 0.0);
-  return chart_of(report, "Amplitudes of a production run",
-                  {.label = fmt::format("samples in each of {} steps (%)", histogram.counts.size()),
-                   .low = 0.0},
-                  std::move(curve));
+  return plot_over_amplitude(
+      report, "Amplitudes of a production run",
+      {.name = fmt::format("samples in each of {} steps", histogram.counts.size()),
+       .unit = "%",
+       .low = 0.0},
+      std::move(line));
 }
 
-LineChart yield_of(const ToleranceReport& report) {
+Plot yield_of(const ToleranceReport& report) {
   const AmplitudeHistogram& histogram = report.study.histogram;
   const double all = static_cast<double>(report.study.sampling.samples());
-  ChartCurve curve;
+  MapCurve line;
   double samples = static_cast<double>(histogram.quiet);
   const auto add = [&](double edge) {
-    curve.line.push_back({report.angle.from_radians(edge), 100.0 * samples / all});
+    line.push_back({report.angle.from_radians(edge), 100.0 * samples / all});
   };
   add(0.0);
   add(histogram.edges.front());
@@ -72,44 +66,42 @@ LineChart yield_of(const ToleranceReport& report) {
     samples += static_cast<double>(histogram.counts[i]);
     add(histogram.edges[i + 1]);
   }
-  return chart_of(report, "Yield against a limit of the amplitude",
-                  {.label = "samples up to that amplitude (%)", .low = 0.0, .high = 100.0},
-                  std::move(curve));
+  return plot_over_amplitude(
+      report, "Yield against a limit of the amplitude",
+      {.name = "samples up to that amplitude", .unit = "%", .low = 0.0, .high = 100.0},
+      std::move(line));
 }
 
-BarChart indices_of(const ToleranceReport& report) {
-  BarChart chart{.title = "What decides the amplitude",
-                 .subtitle = run_in_words(report),
-                 .label = "share of the variance (Sobol's indices)",
-                 .value_meaning = "in all",
-                 .part_meaning = "alone"};
+std::vector<Bar> indices_of(const ToleranceReport& report) {
+  std::vector<Bar> bars;
   for (const NumberSensitivity& number : report.sensitivities.numbers) {
     if (!number.of_amplitude) continue;
-    chart.bars.push_back({number.path, std::max(0.0, number.of_amplitude->total.value),
-                          std::max(0.0, number.of_amplitude->first_order.value)});
+    bars.push_back({number.path, std::max(0.0, number.of_amplitude->total.value),
+                    std::max(0.0, number.of_amplitude->first_order.value)});
   }
-  std::stable_sort(chart.bars.begin(), chart.bars.end(),
+  std::stable_sort(bars.begin(), bars.end(),
                    [](const Bar& a, const Bar& b) { return a.value > b.value; });
-  return chart;
+  return bars;
 }
 
 }  // namespace
 
-std::string draw_tolerances(const ToleranceReport& report, TolerancePicture picture,
-                            PictureFormat format) {
-  const BarChart indices = indices_of(report);
-  if (report.study.histogram.edges.empty() || indices.bars.empty()) {
+Plot tolerance_plot(const ToleranceReport& report, TolerancePicture picture) {
+  const std::vector<Bar> indices = indices_of(report);
+  if (report.study.histogram.edges.empty() || indices.empty()) {
     throw InvalidInput({{"--plot", "", "must be left out: no sample hunts, or all alike", ""}});
   }
   switch (picture) {
     case TolerancePicture::distribution:
-      return draw_line_chart(distribution_of(report), format);
+      return distribution_of(report);
     case TolerancePicture::yield:
-      return draw_line_chart(yield_of(report), format);
+      return yield_of(report);
     case TolerancePicture::indices:
       break;
   }
-  return draw_bar_chart(indices, format);
+  return plot_of_run(
+      report, "What decides the amplitude",
+      bar_panel(indices, {.name = "share of the variance (Sobol's indices)"}, "in all", "alone"));
 }
 
 }  // namespace gearlash

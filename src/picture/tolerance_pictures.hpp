@@ -1,10 +1,8 @@
 // Pictures of a production run.
 #pragma once
 
-#include <string>
-
 #include "output/tolerance_report.hpp"
-#include "picture/picture.hpp"
+#include "picture/plot.hpp"
 
 namespace gearlash {
 
@@ -14,9 +12,7 @@ enum class TolerancePicture {
   indices        ///< share of the amplitude's variance for each parameter
 };
 
-/// Returns the bytes of the picture. Throws OutputError if gnuplot is missing or fails, and
-/// InvalidInput if no sample hunts, because then there is nothing to draw.
-std::string draw_tolerances(const ToleranceReport& report, TolerancePicture picture,
-                            PictureFormat format);
+/// Throws InvalidInput if no sample hunts, because then there is nothing to draw.
+Plot tolerance_plot(const ToleranceReport& report, TolerancePicture picture);
 
 }  // namespace gearlash

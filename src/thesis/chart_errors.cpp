@@ -9,6 +9,7 @@
 
 #include "base/progress_part.hpp"
 #include "base/special_numbers.hpp"
+#include "picture/curve_panel.hpp"
 #include "thesis/exact_curve.hpp"
 #include "thesis/figures.hpp"
 
@@ -46,23 +47,21 @@ std::vector<ChartError> chart_errors(
   return errors;
 }
 
-CellMap error_map(const std::vector<ChartError>& errors) {
+Plot error_plot(const std::vector<ChartError>& errors) {
   constexpr double rests = std::numeric_limits<double>::infinity();
-  constexpr double largest = 4.0;
-  CellMap map{.title = "The charts of 1960 against the exact sizes",
-              .subtitle =
-                  "error of the size in per cent; · where the servo comes to rest, empty where "
-                  "the thesis has no point",
-              .x_label = "inertia ratio",
-              .y_label = "damping",
-              .columns = {"1/9", "1/4", "1", "4", "9"},
-              .largest = largest};
-  for (int tenth = 1; tenth <= charted_dampings; ++tenth)
-    map.rows.push_back(fmt::format("0.{}", tenth));
-  for (const double friction_ratio : charted_friction_ratios) {
-    CellPanel panel{
-        fmt::format("friction ratio {}", friction_ratio),
-        std::vector(charted_dampings, std::vector(charted_inertia_ratios.size(), not_a_number))};
+  Cells cells{.columns = {"1/9", "1/4", "1", "4", "9"},
+              .largest = 4.0,
+              .letters = 0.7,
+              .dot_meaning = "comes to rest"};
+  for (int tenth = 1; tenth <= charted_dampings; ++tenth) {
+    cells.rows.push_back(fmt::format("0.{}", tenth));
+  }
+  Plot plot{.title = "The charts of 1960 against the exact sizes",
+            .subtitles = {"error of the size in per cent; empty where the thesis has no point"},
+            .columns = std::vector<PlotColumn>(3)};
+  for (std::size_t i = 0; i < charted_friction_ratios.size(); ++i) {
+    const double friction_ratio = charted_friction_ratios.at(i);
+    cells.values.assign(charted_dampings, std::vector(charted_inertia_ratios.size(), not_a_number));
     for (const ChartError& error : errors) {
       if (error.servo.friction_ratio != friction_ratio) continue;
       const auto row = static_cast<std::size_t>(std::lround(10.0 * error.servo.damping) - 1);
@@ -70,11 +69,15 @@ CellMap error_map(const std::vector<ChartError>& errors) {
                                                              charted_inertia_ratios.end(),
                                                              error.servo.inertia_ratio) -
                                                    charted_inertia_ratios.begin());
-      panel.values.at(row).at(column) = 100.0 * error.relative().value_or(rests);
+      cells.values.at(row).at(column) = 100.0 * error.relative().value_or(rests);
     }
-    map.panels.push_back(std::move(panel));
+    const std::size_t column = i % plot.columns.size();
+    Panel panel = cell_panel(cells, "inertia ratio", column == 0 ? "damping" : "");
+    panel.title = fmt::format("friction ratio {}", friction_ratio);
+    panel.height = 230.0;
+    plot.columns[column].push_back(std::move(panel));
   }
-  return map;
+  return plot;
 }
 
 }  // namespace gearlash::thesis

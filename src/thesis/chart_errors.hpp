@@ -7,7 +7,7 @@
 
 #include "gearlash/progress.hpp"
 #include "model/normalized_servo.hpp"
-#include "picture/cell_map.hpp"
+#include "picture/plot.hpp"
 #include "thesis/settled_cycle.hpp"
 
 namespace gearlash::thesis {
@@ -35,7 +35,7 @@ std::vector<ChartError> chart_errors(
     const std::function<SettledCycle(const ProgramParameters&, Progress&)>& cycle_of,
     Progress& progress = no_progress());
 
-/// The errors in per cent as a map with a panel for each friction ratio.
-CellMap error_map(const std::vector<ChartError>& errors);
+/// The errors in per cent as cells, with a panel for each friction ratio.
+Plot error_plot(const std::vector<ChartError>& errors);
 
 }  // namespace gearlash::thesis

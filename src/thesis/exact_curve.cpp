@@ -16,7 +16,7 @@ std::optional<double> exact_amplitude(const NormalizedServo& servo) {
   return cycle != nullptr ? std::optional(cycle->amplitude) : std::nullopt;
 }
 
-ChartCurve exact_curve(const std::vector<double>& places,
+NamedCurve exact_curve(const std::vector<double>& places,
                        const std::function<NormalizedServo(double place)>& servo_at) {
   std::vector<CurveServo> servos;
   servos.reserve(places.size());

@@ -8,7 +8,7 @@
 #include "closed_form/limit_cycle.hpp"
 #include "closed_form/trajectory.hpp"
 #include "model/normalized_servo.hpp"
-#include "picture/line_chart.hpp"
+#include "picture/curve_panel.hpp"
 
 namespace gearlash::thesis {
 
@@ -18,7 +18,7 @@ std::optional<double> exact_amplitude(const NormalizedServo& servo);
 /// The amplitude over a continuum of servos at rising places: NaN without a cycle or for an
 /// impossible servo, 0 without a gap. Bisection finds the places where the cycle begins or ends.
 /// Precondition: plastic contact, with which a cycle ends at a single place between two neighbours.
-ChartCurve exact_curve(const std::vector<double>& places,
+NamedCurve exact_curve(const std::vector<double>& places,
                        const std::function<NormalizedServo(double place)>& servo_at);
 
 }  // namespace gearlash::thesis

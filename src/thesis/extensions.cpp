@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "base/special_numbers.hpp"
 #include "thesis/exact_curve.hpp"
@@ -13,19 +14,19 @@
 namespace gearlash::thesis {
 namespace {
 
-ChartCurve named_curve(std::string name, const std::vector<double>& places,
+NamedCurve named_curve(std::string name, const std::vector<double>& places,
                        const std::function<NormalizedServo(double)>& servo_at) {
-  ChartCurve curve = exact_curve(places, servo_at);
+  NamedCurve curve = exact_curve(places, servo_at);
   curve.name = std::move(name);
   return curve;
 }
 
 /// With bounces: limit cycles are marks joined by a line, which is interrupted where the amplitude
 /// jumps. Open circles show the extent of irregular motion.
-ChartCurve bouncing_curve(std::string name, const std::vector<double>& places,
+NamedCurve bouncing_curve(std::string name, const std::vector<double>& places,
                           const std::function<NormalizedServo(double)>& servo_at) {
   constexpr double leap = 0.08;
-  ChartCurve result{.name = std::move(name)};
+  NamedCurve result{.name = std::move(name)};
   double before = not_a_number;
   for (const double place : places) {
     const LimitCycleAnalysis analysis = analyse_limit_cycles(servo_at(place));
@@ -54,7 +55,15 @@ std::vector<double> evenly_in_logarithm(double low, double high, int count) {
   return places;
 }
 
-const ChartAxis size_axis{.label = "size of limit cycle (rad)", .low = 0.0};
+Plot plot_over(PlotAxis x, const char* title, const char* subtitle,
+               const std::vector<NamedCurve>& curves, const char* mark_meaning,
+               const char* end_meaning) {
+  constexpr double mark_size = 0.3;
+  Panel panel{.x = std::move(x), .y = {.name = "size of limit cycle", .unit = "rad", .low = 0.0}};
+  add_curves(curves, mark_size, panel);
+  explain_curves("", mark_meaning, mark_size, end_meaning, panel);
+  return plot_of(title, subtitle, std::move(panel));
+}
 
 Extension zero_friction_and_inertia() {
   Extension result{
@@ -66,20 +75,15 @@ Extension zero_friction_and_inertia() {
           "0 the size is, for the inertia ratios 1/4 to 4 drawn here, within four per cent of that "
           "at 0.04, which the thesis took for it. A side without inertia takes no energy at the "
           "impact; the servo hunts all the same. As the friction moves to the load the swing of a "
-          "motor without inertia vanishes, that of a load without inertia grows.",
-      .chart = {.title = "Recommendation 2: zero friction and zero inertia",
-                .subtitle = "damping 0.2, backlash 0.3",
-                .x = {.label = "friction ratio, load friction to total friction",
-                      .low = 0.0,
-                      .high = 1.0},
-                .y = size_axis}};
+          "motor without inertia vanishes, that of a load without inertia grows."};
+  std::vector<NamedCurve> curves;
   const std::vector<std::pair<std::string, double>> ratios = {{"massless load", 0.0},
                                                               {"J_L/J_M 1/4", 0.25},
                                                               {"J_L/J_M 1", 1.0},
                                                               {"J_L/J_M 4", 4.0},
                                                               {"massless motor", infinity}};
   for (const auto& [name, ratio] : ratios) {
-    result.chart.curves.push_back(
+    curves.push_back(
         named_curve(name, evenly(0.0, 1.0, 201), [ratio = ratio](double friction_ratio) {
           return NormalizedServo{.damping = 0.2,
                                  .inertia_ratio = ratio,
@@ -87,6 +91,10 @@ Extension zero_friction_and_inertia() {
                                  .backlash = charted_backlash};
         }));
   }
+  result.plot = plot_over(
+      {.name = "friction ratio, load friction to total friction", .low = 0.0, .high = 1.0},
+      "Recommendation 2: zero friction and zero inertia", "damping 0.2, backlash 0.3", curves, "",
+      "");
   return result;
 }
 
@@ -98,25 +106,21 @@ Extension wide_inertia_ratios() {
           "At a friction ratio of 0.2 the curves are flat beyond an inertia ratio of 30: for the "
           "same damping coefficient a heavier load neither calms the servo nor makes it worse, the "
           "motor's inertia then being negligible. Below 1/10 everything depends on damping: at 0.1 "
-          "the servo swings by two to three times the backlash, from 0.4 on it comes to rest.",
-      .chart = {.title = "Recommendation 3: inertia ratios from 1/1000 to 1000",
-                .subtitle = "friction ratio 0.2, backlash 0.3",
-                .x = {.label = "inertia ratio, load to motor",
-                      .logarithmic = true,
-                      .low = 1e-3,
-                      .high = 1e3},
-                .y = size_axis,
-                .end_meaning = "hunting ends"}};
+          "the servo swings by two to three times the backlash, from 0.4 on it comes to rest."};
+  std::vector<NamedCurve> curves;
   for (int tenth = 1; tenth <= charted_dampings; ++tenth) {
-    result.chart.curves.push_back(
-        named_curve(fmt::format("damping 0.{}", tenth), evenly_in_logarithm(1e-3, 1e3, 601),
-                    [tenth](double ratio) {
-                      return NormalizedServo{.damping = tenth / 10.0,
-                                             .inertia_ratio = ratio,
-                                             .friction_ratio = 0.2,
-                                             .backlash = charted_backlash};
-                    }));
+    curves.push_back(named_curve(fmt::format("damping 0.{}", tenth),
+                                 evenly_in_logarithm(1e-3, 1e3, 601), [tenth](double ratio) {
+                                   return NormalizedServo{.damping = tenth / 10.0,
+                                                          .inertia_ratio = ratio,
+                                                          .friction_ratio = 0.2,
+                                                          .backlash = charted_backlash};
+                                 }));
   }
+  result.plot = plot_over(
+      {.name = "inertia ratio, load to motor", .logarithmic = true, .low = 1e-3, .high = 1e3},
+      "Recommendation 3: inertia ratios from 1/1000 to 1000", "friction ratio 0.2, backlash 0.3",
+      curves, "", "hunting ends");
   return result;
 }
 
@@ -135,14 +139,8 @@ Extension elastic_contact(Progress& progress) {
           "keep it from repeating; up to a tenth they hold within one per cent. Beyond a half, "
           "steady swings end and "
           "begin again, and one gives way to another at a leap: where a curve is broken none was "
-          "found, and the motion goes on without repeating.",
-      .chart = {.title = "Recommendation 4: from plastic to elastic contact",
-                .subtitle = "friction ratio 0.1, inertia ratio 2, backlash 0.3",
-                .x = {.label = "restitution", .low = 0.0, .high = 1.0},
-                .y = size_axis,
-                .mark_meaning = "steady swing, the largest",
-                .end_meaning = "does not repeat: half its extent",
-                .mark_size = 0.3}};
+          "found, and the motion goes on without repeating."};
+  std::vector<NamedCurve> curves;
   constexpr std::array dampings = {0.1, 0.19, 0.3, 0.5};
   for (const double damping : dampings) {
     const auto servo_at = [damping](double restitution) {
@@ -152,10 +150,14 @@ Extension elastic_contact(Progress& progress) {
                              .backlash = charted_backlash,
                              .restitution = restitution};
     };
-    result.chart.curves.push_back(
+    curves.push_back(
         bouncing_curve(fmt::format("damping {}", damping), evenly(0.0, 1.0, 51), servo_at));
-    if (!progress.go_on(static_cast<double>(result.chart.curves.size()) / dampings.size())) break;
+    if (!progress.go_on(static_cast<double>(curves.size()) / dampings.size())) break;
   }
+  result.plot = plot_over({.name = "restitution", .low = 0.0, .high = 1.0},
+                          "Recommendation 4: from plastic to elastic contact",
+                          "friction ratio 0.1, inertia ratio 2, backlash 0.3", curves,
+                          "steady swing, the largest", "does not repeat: half its extent");
   return result;
 }
 

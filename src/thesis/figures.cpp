@@ -95,29 +95,29 @@ std::vector<double> places(const Figure& figure) {
   return result;
 }
 
-ChartAxis axis_of(const Figure& figure) {
+PlotAxis axis_of(const Figure& figure) {
   switch (figure.along) {
     case Along::friction_ratio:
-      return {.label = "friction ratio, load friction to total friction",
+      return {.name = "friction ratio, load friction to total friction",
               .logarithmic = true,
               .low = friction_ratios.front(),
               .high = friction_ratios.back(),
-              .tics = {{"0.04", 0.04},
-                       {"0.1", 0.1},
-                       {"0.2", 0.2},
-                       {"0.4", 0.4},
-                       {"0.6", 0.6},
-                       {"1.0", 1.0}}};
+              .tics = {{0.04, "0.04"},
+                       {0.1, "0.1"},
+                       {0.2, "0.2"},
+                       {0.4, "0.4"},
+                       {0.6, "0.6"},
+                       {1.0, "1.0"}}};
     case Along::backlash:
-      return {.label = "backlash (rad)", .low = 0.0, .high = figure.grid.back()};
+      return {.name = "backlash", .unit = "rad", .low = 0.0, .high = figure.grid.back()};
     case Along::inertia_ratio:
       break;
   }
-  return {.label = "inertia ratio, load to motor",
+  return {.name = "inertia ratio, load to motor",
           .logarithmic = true,
           .low = inertia_ratios.front(),
           .high = inertia_ratios.back(),
-          .tics = {{"1/9", 1.0 / 9.0}, {"1/4", 0.25}, {"1", 1.0}, {"4", 4.0}, {"9", 9.0}}};
+          .tics = {{1.0 / 9.0, "1/9"}, {0.25, "1/4"}, {1.0, "1"}, {4.0, "4"}, {9.0, "9"}}};
 }
 
 // --- phase trajectories ---
@@ -139,8 +139,8 @@ PhaseFigure phase_figure(int number, double damping, double inertia_ratio, doubl
 }
 
 struct PhaseCurves {
-  ChartCurve load{.name = "load"};
-  ChartCurve motor{.name = "motor, in the gap"};
+  NamedCurve load{.name = "load"};
+  NamedCurve motor{.name = "motor, in the gap"};
 };
 
 /// The step response of the program and of the exact servo, both from rest on the forward face.
@@ -188,18 +188,16 @@ const std::vector<PhaseFigure>& thesis_phase_figures() {
   return figures;
 }
 
-LineChart chart_of(const PhaseFigure& figure) {
+Plot plot_of(const PhaseFigure& figure) {
   PhaseCurves curves;
   add_exact(figure, curves);
   add_program(figure, curves);
-  return {.title = fmt::format("Figure {}", figure.number),
-          .subtitle = figure.caption,
-          .x = {.label = "position angle, θ (rad)"},
-          .y = {.label = "time rate of change of position angle (rad/s)"},
-          .curves = {std::move(curves.load), std::move(curves.motor)},
-          .line_meaning = "exact",
-          .mark_meaning = "program of 1960",
-          .mark_size = figure.mark_size};
+  Panel panel{.x = {.name = "position angle, θ", .unit = "rad"},
+              .y = {.name = "time rate of change of position angle", .unit = "rad/s"}};
+  add_curves({std::move(curves.load), std::move(curves.motor)}, figure.mark_size, panel);
+  explain_curves("exact", "program of 1960", figure.mark_size, "", panel);
+  return gearlash::plot_of(fmt::format("Figure {}", figure.number), figure.caption,
+                           std::move(panel));
 }
 
 const std::vector<Figure>& thesis_figures() {
@@ -223,8 +221,8 @@ NormalizedServo servo_at(const Figure& figure, const FigureCurve& curve, double 
   return servo;
 }
 
-ChartCurve work_out(const Figure& figure, const FigureCurve& curve, Progress& progress) {
-  ChartCurve drawn =
+NamedCurve work_out(const Figure& figure, const FigureCurve& curve, Progress& progress) {
+  NamedCurve drawn =
       exact_curve(places(figure), [&](double place) { return servo_at(figure, curve, place); });
   drawn.name = curve.name;
   for (std::size_t i = 0; i < figure.grid.size(); ++i) {
@@ -238,30 +236,31 @@ ChartCurve work_out(const Figure& figure, const FigureCurve& curve, Progress& pr
   return drawn;
 }
 
-LineChart chart_of(const Figure& figure, Progress& progress) {
-  LineChart chart{.title = fmt::format("Figure {}", figure.number),
-                  .subtitle = figure.caption,
-                  .x = axis_of(figure),
-                  .y = {.label = "size of limit cycle (rad)", .low = 0.0},
-                  .line_meaning = "exact",
-                  .mark_meaning = "program of 1960",
-                  .mark_size = 0.65};
-  if (figure.along == Along::inertia_ratio) chart.y.high = 1.0;  // one scale for all design charts
+Plot plot_of(const Figure& figure, Progress& progress) {
+  std::vector<NamedCurve> curves;
+  bool has_ends = false;
   for (const FigureCurve& one : figure.curves) {
-    ProgressPart part(progress, chart.curves.size(), figure.curves.size());
+    ProgressPart part(progress, curves.size(), figure.curves.size());
     if (!part.go_on(0.0)) break;
-    ChartCurve curve = work_out(figure, one, part);
-    const bool hunts =
-        std::any_of(curve.line.begin(), curve.line.end(),
-                    [](const ChartPoint& point) { return point.x > 0.0 && !std::isnan(point.y); });
+    NamedCurve curve = work_out(figure, one, part);
+    const bool hunts = std::any_of(curve.line.begin(), curve.line.end(), [](const MapPoint& point) {
+      return point.x > 0.0 && !std::isnan(point.y);
+    });
     if (!hunts) {
       curve.name += ": rests";
       curve.line.clear();
     }
-    if (!curve.ends.empty()) chart.end_meaning = "hunting ends";
-    chart.curves.push_back(std::move(curve));
+    has_ends = has_ends || !curve.ends.empty();
+    curves.push_back(std::move(curve));
   }
-  return chart;
+  Panel panel{.x = axis_of(figure),
+              .y = {.name = "size of limit cycle", .unit = "rad", .low = 0.0}};
+  if (figure.along == Along::inertia_ratio) panel.y.high = 1.0;  // one scale for all design charts
+  constexpr double mark_size = 0.65;
+  add_curves(curves, mark_size, panel);
+  explain_curves("exact", "program of 1960", mark_size, has_ends ? "hunting ends" : "", panel);
+  return gearlash::plot_of(fmt::format("Figure {}", figure.number), figure.caption,
+                           std::move(panel));
 }
 
 }  // namespace gearlash::thesis

@@ -7,7 +7,7 @@
 
 #include "gearlash/progress.hpp"
 #include "model/normalized_servo.hpp"
-#include "picture/line_chart.hpp"
+#include "picture/curve_panel.hpp"
 
 namespace gearlash::thesis {
 
@@ -41,11 +41,11 @@ NormalizedServo servo_at(const Figure& figure, const FigureCurve& curve, double 
 
 /// Computes a curve: exact_curve(), with the program's amplitudes as marks at the grid if it hunts.
 /// Amplitudes are half the load's peak-to-peak, rad.
-ChartCurve work_out(const Figure& figure, const FigureCurve& curve,
+NamedCurve work_out(const Figure& figure, const FigureCurve& curve,
                     Progress& progress = no_progress());
 
-/// The figure as a chart with all its curves.
-LineChart chart_of(const Figure& figure, Progress& progress = no_progress());
+/// The figure with all its curves.
+Plot plot_of(const Figure& figure, Progress& progress = no_progress());
 
 /// Figures 12 … 15: the step response in the phase plane, motor and load separate in the gap.
 struct PhaseFigure {
@@ -60,6 +60,6 @@ const std::vector<PhaseFigure>& thesis_phase_figures();
 
 /// The exact trajectories, and marks where the program prints, every 0.08 s. In the thesis's
 /// coordinate the motor and load positions are equal during contact on either face.
-LineChart chart_of(const PhaseFigure& figure);
+Plot plot_of(const PhaseFigure& figure);
 
 }  // namespace gearlash::thesis

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "picture/gnuplot_renderer.hpp"
 #include "picture/hunting_drive.hpp"
 #include "picture/svg_reading.hpp"
 
@@ -42,8 +43,10 @@ Grid grid_of(const char* path, double high = 4.0) {
 }
 
 TEST(BifurcationPicture, EachThingHasOneName) {
-  const std::string svg = draw_bifurcations(diagram_with_fold(), grid_of("controller.proportional"),
-                                            Quantity::amplitude, radians, PictureFormat::svg);
+  const std::string svg =
+      draw(bifurcation_plot(diagram_with_fold(), grid_of("controller.proportional"),
+                            Quantity::amplitude, radians),
+           PictureFormat::svg);
   for (const char* name : {"stable cycle", "unstable cycle", "can come to rest", "fold",
                            "something new", "border of running away"}) {
     EXPECT_EQ(test::count_of(">" + std::string(name) + "</tspan>", svg), 1U) << name;
@@ -54,26 +57,29 @@ TEST(BifurcationPicture, EachThingHasOneName) {
 
 TEST(BifurcationPicture, AnglesAreInTheUnitOfTheUser) {
   const AngleUnit degrees{.name = "deg", .radians = 0.017453292519943295};
-  const std::string svg = draw_bifurcations(diagram_with_fold(), grid_of("gearbox.backlash"),
-                                            Quantity::amplitude, degrees, PictureFormat::svg);
+  const std::string svg = draw(bifurcation_plot(diagram_with_fold(), grid_of("gearbox.backlash"),
+                                                Quantity::amplitude, degrees),
+                               PictureFormat::svg);
   EXPECT_THAT(svg, AllOf(HasSubstr("amplitude (deg)"), HasSubstr("gearbox backlash (deg)"),
-                         HasSubstr("> 20<"), HasSubstr("> 200<"), Not(HasSubstr("(rad)"))));
+                         HasSubstr(">20<"), HasSubstr(">200<"), Not(HasSubstr("(rad)"))));
 }
 
 TEST(BifurcationPicture, WideAmplitudesAreLogarithmicWithRestAtTheFoot) {
   BifurcationDiagram diagram = diagram_with_fold();
   diagram.irregular = {{.parameter = 1.5, .amplitude = 1e-4, .motor_amplitude = 1e-4}};
-  const std::string svg = draw_bifurcations(diagram, grid_of("controller.proportional"),
-                                            Quantity::amplitude, radians, PictureFormat::svg);
-  EXPECT_THAT(svg, AllOf(HasSubstr("10<"), HasSubstr("can come to rest"),
+  const std::string svg = draw(
+      bifurcation_plot(diagram, grid_of("controller.proportional"), Quantity::amplitude, radians),
+      PictureFormat::svg);
+  EXPECT_THAT(svg, AllOf(HasSubstr("10⁻⁴<"), HasSubstr("can come to rest"),
                          HasSubstr("motion that closes no cycle")));
 }
 
 TEST(BifurcationPicture, PeriodsHaveNeitherRestNorIrregularMotion) {
   BifurcationDiagram diagram = diagram_with_fold();
   diagram.irregular = {{.parameter = 1.5, .amplitude = 0.1, .motor_amplitude = 0.1}};
-  const std::string svg = draw_bifurcations(diagram, grid_of("controller.proportional"),
-                                            Quantity::period, radians, PictureFormat::svg);
+  const std::string svg =
+      draw(bifurcation_plot(diagram, grid_of("controller.proportional"), Quantity::period, radians),
+           PictureFormat::svg);
   EXPECT_THAT(svg, AllOf(HasSubstr("period (s)"), HasSubstr("stable cycle"),
                          Not(HasSubstr("can come to rest")), Not(HasSubstr("closes no cycle"))));
   EXPECT_TRUE(has_branches(Quantity::period));
@@ -81,9 +87,10 @@ TEST(BifurcationPicture, PeriodsHaveNeitherRestNorIrregularMotion) {
 }
 
 TEST(BifurcationPicture, NothingSaysSo) {
-  EXPECT_THAT(draw_bifurcations({}, grid_of("controller.proportional"), Quantity::amplitude,
-                                radians, PictureFormat::svg),
-              HasSubstr("no cycle was found"));
+  EXPECT_THAT(
+      draw(bifurcation_plot({}, grid_of("controller.proportional"), Quantity::amplitude, radians),
+           PictureFormat::svg),
+      HasSubstr("no cycle was found"));
 }
 
 }  // namespace

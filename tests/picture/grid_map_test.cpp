@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <string>
+#include <vector>
 
+#include "picture/gnuplot_renderer.hpp"
 #include "picture/grid_chart.hpp"
 #include "question/map/servo_grids.hpp"
 
@@ -59,11 +61,38 @@ bool is_at_edge(const Grid& grid, const MapPoint& point) {
   return std::min({place.along, 1.0 - place.along, place.up, 1.0 - place.up}) < 1e-9;
 }
 
+const Panel& panel_of(const Plot& plot) { return plot.columns.at(0).at(0); }
+
+bool has_layer(const Plot& plot, const std::string& name) {
+  const std::vector<Layer>& layers = panel_of(plot).layers;
+  return std::any_of(layers.begin(), layers.end(),
+                     [&](const Layer& layer) { return layer.name == name; });
+}
+
+/// The lines of all layers of that name.
+std::vector<MapCurve> curves_of(const Plot& plot, const std::string& name) {
+  std::vector<MapCurve> curves;
+  for (const Layer& layer : panel_of(plot).layers) {
+    if (layer.name != name) continue;
+    curves.emplace_back();
+    for (const MapPoint& point : layer.points) {
+      if (std::isnan(point.x)) {
+        curves.emplace_back();
+      } else {
+        curves.back().push_back(point);
+      }
+    }
+  }
+  return curves;
+}
+
+std::vector<MapCurve> hatching_of(const Plot& plot) { return curves_of(plot, "no limit cycle"); }
+
 TEST(GridMap, HatchingEndsAtTheBoundary) {
   const GridTable table = map_table(0.0);
-  const ContourMap map = map_of(table, Quantity::amplitude);
-  ASSERT_GT(map.hatching.size(), 10U);
-  for (const MapCurve& line : map.hatching) {
+  const std::vector<MapCurve> hatching = hatching_of(map_plot(table, Quantity::amplitude));
+  ASSERT_GT(hatching.size(), 10U);
+  for (const MapCurve& line : hatching) {
     ASSERT_EQ(line.size(), 2U);
     for (const MapPoint& end : line) {
       // On the boundary as it is drawn, to rounding.
@@ -78,7 +107,7 @@ TEST(GridMap, HatchingEndsAtTheBoundary) {
 
 TEST(GridMap, HatchingCoversAllThatHasNoCycleAndNothingElse) {
   const GridTable table = map_table(0.0);
-  const ContourMap map = map_of(table, Quantity::amplitude);
+  const std::vector<MapCurve> hatching = hatching_of(map_plot(table, Quantity::amplitude));
   constexpr double spacing = 0.03;  // of the lines, in shares of the axes
   std::size_t covered = 0;
   for (std::size_t row = 0; row < table.grid.size(); ++row) {
@@ -88,7 +117,7 @@ TEST(GridMap, HatchingCoversAllThatHasNoCycleAndNothingElse) {
     const bool has_cycle = table.table.verdict(row) == Verdict::hunts;
     // The first diagonals keep clear of two corners of the map.
     if (is_at_edge(table.grid, point)) continue;
-    EXPECT_EQ(distance(table.grid, point, map.hatching) > spacing, has_cycle)
+    EXPECT_EQ(distance(table.grid, point, hatching) > spacing, has_cycle)
         << point.x << ", " << point.y;
     covered += has_cycle ? 0U : 1U;
   }
@@ -104,9 +133,9 @@ TEST(GridMap, ACellThatMayHuntOrIsNotKnownIsNotHatched) {
     table.table.column_of_verdicts()[row] =
         known ? Verdict::hunts_if_disturbed : Verdict::undecided;
     if (!known) table.table.column(Quantity::growth_at_rest)[row] = NAN;
-    const ContourMap map = map_of(table, Quantity::amplitude);
+    const std::vector<MapCurve> hatching = hatching_of(map_plot(table, Quantity::amplitude));
     // A cell is 1/16 of the map wide and 1/12 high; lines are looked at in steps of 0.0026.
-    const double clear = distance(table.grid, {servo.friction_ratio, servo.damping}, map.hatching);
+    const double clear = distance(table.grid, {servo.friction_ratio, servo.damping}, hatching);
     EXPECT_GT(clear, 1.0 / 16.0 - 0.004);
     EXPECT_LT(clear, 0.1);
   }
@@ -118,14 +147,14 @@ TEST(EdgeGridMap, WhatIsSmallerThanACellIsNotHatched) {
                   {{"servo.damping", {0.5, 1.0}}, {"servo.friction_ratio", {0.0, 1.0}}}};
   const GridTable table = map_table(grid);
   EXPECT_TRUE(table.hunting_boundary->empty());
-  EXPECT_TRUE(map_of(table, Quantity::amplitude).hatching.empty());
+  EXPECT_TRUE(hatching_of(map_plot(table, Quantity::amplitude)).empty());
 }
 
 TEST(GridMap, TheBoundaryIsNoContour) {
   const GridTable table = map_table(0.0);
-  const ContourMap map = map_of(table, Quantity::growth_at_rest);
-  EXPECT_GE(map.contours.size(), 5U);
-  for (const Contour& contour : map.contours) EXPECT_NE(contour.level, 1.0);
+  const Plot map = map_plot(table, Quantity::growth_at_rest);
+  EXPECT_GE(panel_of(map).texts.size(), 5U);
+  for (const PlotText& number : panel_of(map).texts) EXPECT_NE(number.text, "1");
 }
 
 /// Levels are round in the author's unit; curves and axes are in it.
@@ -135,21 +164,28 @@ TEST(GridMap, IsDrawnInTheUnitOfAngles) {
       map_table({drive_of({.inertia_ratio = 2.0, .friction_ratio = 0.3}),
                  {spaced_axis("y", "servo.damping", 0.1, 0.4, 5, Spacing::logarithmic),
                   spaced_axis("x", "servo.backlash", 1e-3, 2e-3, 5, Spacing::linear)}});
-  const ContourMap radians = map_of(table, Quantity::amplitude);
+  const Plot radians = map_plot(table, Quantity::amplitude);
   table.angle = {"arcmin", arcminute};
-  const ContourMap map = map_of(table, Quantity::amplitude);
+  const Plot map = map_plot(table, Quantity::amplitude);
   EXPECT_EQ(map.title, "Amplitude of the load (arcmin)");
-  EXPECT_EQ(map.x.label, "backlash (arcmin)");
-  EXPECT_DOUBLE_EQ(map.x.low.value(), 1.0);
-  EXPECT_DOUBLE_EQ(map.x.high.value(), 2.0);
-  EXPECT_DOUBLE_EQ(map.y.low.value(), 0.1);
-  ASSERT_EQ(map.contours.size(), radians.contours.size());
-  ASSERT_FALSE(map.contours.empty());
-  for (std::size_t i = 0; i < map.contours.size(); ++i) {
-    EXPECT_NEAR(map.contours[i].level, radians.contours[i].level / arcminute, 1e-9);
-    const MapPoint& in_radians = radians.contours[i].curves.at(0).at(0);
-    EXPECT_NEAR(map.contours[i].curves.at(0).at(0).x, in_radians.x / arcminute, 1e-6);
-    EXPECT_NEAR(map.contours[i].curves.at(0).at(0).y, in_radians.y, 1e-9);
+  const Panel& panel = panel_of(map);
+  EXPECT_EQ(drawn_x(panel).label, "backlash (arcmin)");
+  EXPECT_DOUBLE_EQ(panel.x.low.value(), 1.0);
+  EXPECT_DOUBLE_EQ(panel.x.high.value(), 2.0);
+  EXPECT_DOUBLE_EQ(panel.y.low.value(), 0.1);
+  const Panel& other = panel_of(radians);
+  ASSERT_EQ(panel.layers.size(), other.layers.size());
+  ASSERT_EQ(panel.texts.size(), other.texts.size());
+  ASSERT_GE(panel.texts.size(), 2U);
+  for (std::size_t i = 0; i < panel.texts.size(); ++i) {
+    EXPECT_NEAR(std::stod(panel.texts[i].text), std::stod(other.texts[i].text) / arcminute, 1e-9);
+  }
+  for (std::size_t i = 0; i < panel.layers.size(); ++i) {
+    ASSERT_EQ(panel.layers[i].points.empty(), other.layers[i].points.empty());
+    if (panel.layers[i].points.empty()) continue;
+    const MapPoint& in_radians = other.layers[i].points.front();
+    EXPECT_NEAR(panel.layers[i].points.front().x, in_radians.x / arcminute, 1e-6);
+    EXPECT_NEAR(panel.layers[i].points.front().y, in_radians.y, 1e-9);
   }
 }
 
@@ -157,31 +193,24 @@ TEST(GridChart, IsDrawnInTheUnitOfAngles) {
   const Grid grid{drive_of({.damping = 0.1, .inertia_ratio = 2.0, .friction_ratio = 0.3}),
                   {spaced_axis("x", "servo.backlash", 1e-3, 2e-3, 3, Spacing::linear)}};
   GridTable table{.grid = grid, .table = worked_out(grid), .provenance = {}};
-  const ChartPoint in_radians = chart_of(table, Quantity::amplitude).curves.at(0).line.at(1);
+  const Plot radians = chart_plot(table, Quantity::amplitude);
+  const MapPoint in_radians = panel_of(radians).layers.at(0).points.at(1);
   table.angle = {"arcmin", 1e-3};
-  const LineChart chart = chart_of(table, Quantity::amplitude);
-  EXPECT_EQ(chart.y.label, "amplitude (arcmin)");
-  const ChartPoint point = chart.curves.at(0).line.at(1);
+  const Plot chart = chart_plot(table, Quantity::amplitude);
+  EXPECT_EQ(drawn_y(panel_of(chart)).label, "amplitude (arcmin)");
+  const MapPoint point = panel_of(chart).layers.at(0).points.at(1);
   EXPECT_DOUBLE_EQ(point.x, 1e3 * in_radians.x);
   EXPECT_DOUBLE_EQ(point.y, 1e3 * in_radians.y);
 }
 
-std::string number_text(double number) {
-  std::ostringstream text;
-  text << number;
-  return text.str();
-}
-
 TEST(GridMap, ItsPictureIsTheSameEachTimeAndHasItsNumbers) {
-  const ContourMap map = map_of(map_table(0.0), Quantity::amplitude);
-  const std::string svg = draw_contour_map(map, PictureFormat::svg);
-  EXPECT_EQ(svg, draw_contour_map(map, PictureFormat::svg));
-  std::size_t numbers = 0;
-  for (const Contour& contour : map.contours) {
-    const bool shown = svg.find(">" + number_text(contour.level) + "<") != std::string::npos;
-    numbers += shown ? 1U : 0U;
+  const Plot map = map_plot(map_table(0.0), Quantity::amplitude);
+  const std::string svg = draw(map, PictureFormat::svg);
+  EXPECT_EQ(svg, draw(map, PictureFormat::svg));
+  EXPECT_GE(panel_of(map).texts.size(), 5U);
+  for (const PlotText& number : panel_of(map).texts) {
+    EXPECT_NE(svg.find(">" + number.text + "<"), std::string::npos) << number.text;
   }
-  EXPECT_GE(numbers + 3, map.contours.size());  // where it is too narrow there is none
 }
 
 /// The limit of a target on the amplitude is where the amplitude has it.
@@ -193,25 +222,25 @@ TEST(OracleGridMap, ShadesWhereATargetIsMet) {
   table.present = MapPoint{0.5, 0.3};
   work_out(table);
   add_borders(table);
-  const ContourMap map = map_of(table, Quantity::amplitude);
+  const Plot map = map_plot(table, Quantity::amplitude);
   EXPECT_EQ(map.title, "Target: amplitude <= 0.4");
-  ASSERT_EQ(map.regions.size(), 2U);
-  EXPECT_EQ(map.regions[0].meaning, "met");
-  EXPECT_EQ(map.regions[1].meaning, "missed");
-  EXPECT_EQ(map.mark, table.present);
-  EXPECT_EQ(map.inner_boundary, *table.hunting_boundary);
-  EXPECT_TRUE(map.hatching.empty());
-  ASSERT_FALSE(map.boundary.empty());
-  for (const MapCurve& curve : map.boundary) {
+  EXPECT_FALSE(curves_of(map, "met").empty());
+  EXPECT_FALSE(curves_of(map, "missed").empty());
+  EXPECT_EQ(curves_of(map, "now"), std::vector<MapCurve>{{*table.present}});
+  EXPECT_TRUE(has_layer(map, "hunting ends"));
+  EXPECT_TRUE(hatching_of(map).empty());
+  const std::vector<MapCurve> limit_curves = curves_of(map, "limit");
+  ASSERT_FALSE(limit_curves.empty());
+  for (const MapCurve& curve : limit_curves) {
     for (const MapPoint& point : curve) {
       const Answer answer = closed_answer(drive_of(servo_at(table.grid, point)));
       EXPECT_NEAR(answer.value(Quantity::amplitude).value(), limit, 1e-5);
     }
   }
   table.target->no_hunting = true;  // its limit is where hunting ends
-  EXPECT_TRUE(map_of(table, Quantity::amplitude).inner_boundary.empty());
+  EXPECT_FALSE(has_layer(map_plot(table, Quantity::amplitude), "hunting ends"));
   table.present = MapPoint{2.0, 0.3};
-  EXPECT_FALSE(map_of(table, Quantity::amplitude).mark.has_value());
+  EXPECT_FALSE(has_layer(map_plot(table, Quantity::amplitude), "now"));
 }
 
 TEST(EdgeGridMap, NothingKnownIsAnEmptyPicture) {
@@ -219,10 +248,9 @@ TEST(EdgeGridMap, NothingKnownIsAnEmptyPicture) {
   const std::size_t rows = table.grid.size();
   table.table = table_of(rows);
   table.hunting_boundary = std::vector<MapCurve>{};
-  const ContourMap map = map_of(table, Quantity::amplitude);
-  EXPECT_TRUE(map.contours.empty());
-  EXPECT_TRUE(map.hatching.empty());
-  EXPECT_NE(draw_contour_map(map, PictureFormat::svg).find("damping"), std::string::npos);
+  const Plot map = map_plot(table, Quantity::amplitude);
+  EXPECT_TRUE(panel_of(map).layers.empty());
+  EXPECT_NE(draw(map, PictureFormat::svg).find("damping"), std::string::npos);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "controllers.hpp"
 #include "output/report_units.hpp"
+#include "picture/gnuplot_renderer.hpp"
 
 namespace gearlash::nyquist_picture_test {
 namespace {
@@ -54,7 +55,7 @@ TEST(NyquistPicture, EveryPartIsDrawn) {
   for (const DescribedPart part : {DescribedPart::gap_load_held, DescribedPart::elastic_gap,
                                    DescribedPart::torque_limit, DescribedPart::coulomb_friction}) {
     const NyquistPicture picture = picture_of(part);
-    const std::string svg = draw_nyquist(picture, PictureFormat::svg);
+    const std::string svg = draw(nyquist_plot(picture), PictureFormat::svg);
     EXPECT_THAT(svg, HasSubstr("L(jω)"));
     EXPECT_THAT(svg, HasSubstr("−1/N(A)"));
     EXPECT_THAT(svg, HasSubstr("L at the exact frequency: ±0.03 rad, 0.4 Hz"));
@@ -64,14 +65,14 @@ TEST(NyquistPicture, EveryPartIsDrawn) {
         EXPECT_THAT(svg, HasSubstr(significant(cycle.amplitude, 3) + " rad"));
       }
     }
-    EXPECT_EQ(svg, draw_nyquist(picture, PictureFormat::svg));
+    EXPECT_EQ(svg, draw(nyquist_plot(picture), PictureFormat::svg));
   }
 }
 
 TEST(NyquistPicture, IsOfTheKindAskedFor) {
   const NyquistPicture picture = picture_of(DescribedPart::gap_load_held);
-  EXPECT_THAT(draw_nyquist(picture, PictureFormat::png), StartsWith("\x89PNG"));
-  EXPECT_THAT(draw_nyquist(picture, PictureFormat::pdf), StartsWith("%PDF-"));
+  EXPECT_THAT(draw(nyquist_plot(picture), PictureFormat::png), StartsWith("\x89PNG"));
+  EXPECT_THAT(draw(nyquist_plot(picture), PictureFormat::pdf), StartsWith("%PDF-"));
 }
 
 struct Text {
@@ -97,8 +98,8 @@ TEST(NyquistPicture, RealAndImaginaryPartsHaveTheSameScale) {
   drive.load = {0.75, {.viscous = 0.25}};
   drive.backlash = 2.0;
   drive.controller = at_load(PID{.proportional = 5.0});
-  const auto numbers =
-      numbers_of(draw_nyquist(picture_of(drive, DescribedPart::gap_load_held), PictureFormat::svg));
+  const auto numbers = numbers_of(
+      draw(nyquist_plot(picture_of(drive, DescribedPart::gap_load_held)), PictureFormat::svg));
   // The imaginary axis' numbers stand at one x and come first, then the real axis' at one y.
   std::vector<Text> up;
   std::vector<Text> right;
@@ -120,7 +121,7 @@ TEST(EdgeNyquistPicture, WithoutCycleOrExactOneThereAreTheCurves) {
   drive.controller = at_load(PID{.terms = PIDTerms::PD, .proportional = 0.5, .derivative = 2.0});
   for (const auto part : {DescribedPart::gap_load_held, DescribedPart::elastic_gap,
                           DescribedPart::torque_limit, DescribedPart::coulomb_friction}) {
-    const std::string svg = draw_nyquist(picture_of(drive, part), PictureFormat::svg);
+    const std::string svg = draw(nyquist_plot(picture_of(drive, part)), PictureFormat::svg);
     EXPECT_THAT(svg, Not(HasSubstr("diamonds")));
     EXPECT_THAT(svg, HasSubstr("L(jω)"));
   }
@@ -130,7 +131,7 @@ TEST(EdgeNyquistPicture, WithoutCycleOrExactOneThereAreTheCurves) {
 TEST(EdgeNyquistPicture, AnAmplitudeWithoutGainIsSaidSo) {
   NyquistPicture picture = picture_of(DescribedPart::gap_load_held);
   picture.exact = {{0.003, 0.005, 2.5}};
-  EXPECT_THAT(draw_nyquist(picture, PictureFormat::svg),
+  EXPECT_THAT(draw(nyquist_plot(picture), PictureFormat::svg),
               HasSubstr("−1/N at the exact amplitude, held: none, too small"));
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "picture/attractor_picture.hpp"
+#include "picture/gnuplot_renderer.hpp"
 #include "picture/hunting_drive.hpp"
 #include "picture/svg_reading.hpp"
 #include "question/analyse.hpp"
@@ -44,7 +45,7 @@ TEST(PhasePortrait, ShowsTheWaysToTheHuntingUnderOneName) {
       std::count_if(picture.motions.begin(), picture.motions.end(),
                     [](const DrawnMotion& drawn) { return drawn.role == MotionRole::to_hunting; });
   EXPECT_GE(ways, 8);
-  const std::string svg = draw_phase_plane(picture, PictureFormat::svg);
+  const std::string svg = draw(phase_plot(picture), PictureFormat::svg);
   EXPECT_EQ(test::count_of(">load, on its way to hunting</tspan>", svg), 1U);
   EXPECT_THAT(svg, AllOf(HasSubstr("load, stable cycle"), Not(HasSubstr("border between basins")),
                          Not(HasSubstr("start that leads"))));
@@ -79,7 +80,7 @@ TEST(PhasePortrait, MarksStartsByTheirEndAndTheBorder) {
   EXPECT_EQ(picture.window->starts[2].position, -1.0);
   EXPECT_EQ(picture.window->starts[2].speed, 1.0);
   EXPECT_EQ(picture.window->starts[2].leads, MotionRole::running_away);
-  EXPECT_THAT(draw_phase_plane(picture, PictureFormat::svg),
+  EXPECT_THAT(draw(phase_plot(picture), PictureFormat::svg),
               AllOf(HasSubstr("start that leads to rest"), HasSubstr(">to hunting<"),
                     HasSubstr(">to running away<"), HasSubstr("border between basins")));
 }
@@ -99,7 +100,7 @@ TEST(PhasePlane, SpeedsThatLeapAreNotJoinedByTheLineOfTheMotion) {
   MotionPicture picture{.title = "title", .drive = drive};
   picture.period = 6.0;
   picture.motions.push_back({.motion = simulate(drive, {.until = 20.0})});
-  const std::string svg = draw_phase_plane(picture, PictureFormat::svg);
+  const std::string svg = draw(phase_plot(picture), PictureFormat::svg);
   const std::vector<test::Stroke> strokes = test::strokes_of(svg, "stroke='rgb(213,  94,   0)'");
   EXPECT_GT(strokes.size(), 50U);
   for (const test::Stroke& stroke : strokes) {

@@ -14,9 +14,10 @@
 #include "model/reduced_drive.hpp"
 #include "output/report_units.hpp"
 #include "picture/attractor_picture.hpp"
+#include "picture/curve_panel.hpp"
 #include "picture/drawn_motion.hpp"
+#include "picture/gnuplot_renderer.hpp"
 #include "picture/hunting_drive.hpp"
-#include "picture/line_chart.hpp"
 #include "picture/motion_picture.hpp"
 #include "picture/svg_reading.hpp"
 
@@ -82,10 +83,10 @@ using test::visible_text;
 
 TEST(Picture, KindIsThatOfTheEnding) {
   const MotionPicture picture = sample_picture();
-  for (const auto draw : {&draw_time_response, &draw_phase_plane}) {
-    EXPECT_TRUE(is_well_formed(draw(picture, PictureFormat::svg)));
-    EXPECT_THAT(draw(picture, PictureFormat::png), StartsWith("\x89PNG\r\n\x1a\n"));
-    const std::string pdf = draw(picture, PictureFormat::pdf);
+  for (const auto plot_of_motion : {&time_plot, &phase_plot}) {
+    EXPECT_TRUE(is_well_formed(draw(plot_of_motion(picture), PictureFormat::svg)));
+    EXPECT_THAT(draw(plot_of_motion(picture), PictureFormat::png), StartsWith("\x89PNG\r\n\x1a\n"));
+    const std::string pdf = draw(plot_of_motion(picture), PictureFormat::pdf);
     EXPECT_THAT(pdf, StartsWith("%PDF-"));
     EXPECT_THAT(pdf.substr(pdf.size() - 8), HasSubstr("%%EOF"));
   }
@@ -103,16 +104,16 @@ TEST(Picture, EndingsAreThreeInSmallOrCapitalLetters) {
 TEST(Picture, SameMotionGivesTheSameBytes) {
   for (const double restitution : {0.0, 0.6}) {
     const MotionPicture picture = sample_picture(restitution);
-    EXPECT_EQ(draw_time_response(picture, PictureFormat::svg),
-              draw_time_response(picture, PictureFormat::svg));
-    EXPECT_EQ(draw_phase_plane(picture, PictureFormat::svg),
-              draw_phase_plane(picture, PictureFormat::svg));
+    EXPECT_EQ(draw(time_plot(picture), PictureFormat::svg),
+              draw(time_plot(picture), PictureFormat::svg));
+    EXPECT_EQ(draw(phase_plot(picture), PictureFormat::svg),
+              draw(phase_plot(picture), PictureFormat::svg));
   }
 }
 
 TEST(Picture, LegendNamesWhatIsDrawn) {
   MotionPicture picture = sample_picture();
-  const std::string response = visible_text(draw_time_response(picture, PictureFormat::svg));
+  const std::string response = visible_text(draw(time_plot(picture), PictureFormat::svg));
   for (const char* word : {"load", "motor", "reference", "gap", "faces apart", "impact", "time (1/",
                            "position (rad)", "damping 0.19"}) {
     EXPECT_THAT(response, HasSubstr(word));
@@ -121,7 +122,7 @@ TEST(Picture, LegendNamesWhatIsDrawn) {
   picture.motions.front().role = MotionRole::background;
   picture.motions.push_back(
       {.motion = simulate(picture.drive, {.until = 6.4}), .name = "limit cycle", .is_cycle = true});
-  const std::string plane = visible_text(draw_phase_plane(picture, PictureFormat::svg));
+  const std::string plane = visible_text(draw(phase_plot(picture), PictureFormat::svg));
   for (const char* word :
        {"load, on its way", "load, limit cycle", "motor, limit cycle", "faces apart", "impact",
         "position from the reference (rad)", "damping 0.19", "backlash"}) {
@@ -133,10 +134,10 @@ TEST(Picture, AxesAreInTheUnitOfTheBacklashAndInSeconds) {
   MotionPicture picture = sample_picture();
   picture.drive.servo->natural_frequency = 14.5;
   picture.angle = {.name = "arcmin", .radians = 2.908882086657216e-4};
-  EXPECT_THAT(visible_text(draw_time_response(picture, PictureFormat::svg)),
+  EXPECT_THAT(visible_text(draw(time_plot(picture), PictureFormat::svg)),
               testing::AllOf(HasSubstr("time (s)"), HasSubstr("position (arcmin)"),
                              HasSubstr("gap (arcmin)"), HasSubstr("torque (N m)")));
-  EXPECT_THAT(visible_text(draw_phase_plane(picture, PictureFormat::svg)),
+  EXPECT_THAT(visible_text(draw(phase_plot(picture), PictureFormat::svg)),
               HasSubstr("speed (arcmin/s)"));
 }
 
@@ -145,7 +146,7 @@ TEST(Picture, ResponsesHaveGapTorqueLimitAndTheirLastSwing) {
   const MotionPicture picture = picture_of(general_drive(), 20.0);
   ASSERT_EQ(picture.motions.front().motion.engine(), Engine::general);
   EXPECT_THAT(
-      visible_text(draw_time_response(picture, PictureFormat::svg)),
+      visible_text(draw(time_plot(picture), PictureFormat::svg)),
       testing::AllOf(HasSubstr("gap (rad)"), HasSubstr("torque (N m)"),
                      HasSubstr("its limit, ±2 N m"), HasSubstr("faces apart"),
                      HasSubstr("in the last third: load ±"), HasSubstr("sensor on the load")));
@@ -190,7 +191,7 @@ TEST(Picture, TheLegendTellsCyclesAndTheirShaftsApart) {
   ASSERT_NE(swing(cycle.amplitude), swing(cycle.motor_amplitude));
   EXPECT_THAT(first.name, HasSubstr(swing(cycle.amplitude)));
   EXPECT_THAT(first.name_of_motor, HasSubstr(swing(cycle.motor_amplitude)));
-  EXPECT_THAT(visible_text(draw_phase_plane(picture, PictureFormat::svg)),
+  EXPECT_THAT(visible_text(draw(phase_plot(picture), PictureFormat::svg)),
               testing::AllOf(HasSubstr("load, " + first.name), HasSubstr("load, " + second.name),
                              HasSubstr("motor, " + first.name_of_motor), HasSubstr("faces apart")));
 }
@@ -198,18 +199,19 @@ TEST(Picture, TheLegendTellsCyclesAndTheirShaftsApart) {
 TEST(Picture, AnSvgIsNamedByItsTitle) {
   MotionPicture picture = sample_picture();
   picture.title = "hunts: <±0.1 rad> & more";
-  for (const auto draw : {&draw_time_response, &draw_phase_plane}) {
-    EXPECT_THAT(draw(picture, PictureFormat::svg),
+  for (const auto plot_of_motion : {&time_plot, &phase_plot}) {
+    EXPECT_THAT(draw(plot_of_motion(picture), PictureFormat::svg),
                 HasSubstr("<title>hunts: &lt;±0.1 rad> &amp; more</title>"));
   }
 }
 
 TEST(Picture, ALongSubtitleIsTwoLines) {
   const std::string numbers = "damping 0.18861093889995897, inertia_ratio 1.992976605137472, ";
-  const LineChart chart{.title = "title",
-                        .subtitle = numbers + numbers + "friction_ratio 0.07710100231303006",
-                        .curves = {{.line = {{0.0, 0.0}, {1.0, 1.0}}}}};
-  const std::string svg = draw_line_chart(chart, PictureFormat::svg);
+  Panel panel;
+  add_curves({{.line = {{0.0, 0.0}, {1.0, 1.0}}}}, 0.0, panel);
+  const std::string svg =
+      draw(plot_of("title", numbers + numbers + "friction_ratio 0.07710100231303006", panel),
+           PictureFormat::svg);
   EXPECT_THAT(visible_text(svg), Not(HasSubstr(numbers + numbers + "friction")));
   EXPECT_THAT(visible_text(svg), HasSubstr("friction_ratio 0.07710100231303006"));
 }
@@ -217,7 +219,7 @@ TEST(Picture, ALongSubtitleIsTwoLines) {
 TEST(Picture, TitleIsTextWhateverItHolds) {
   MotionPicture picture = sample_picture();
   picture.title = "it's a \"title\" {/*9 big} a_b^c @d &e ~f \\n `date` $x <g> # h";
-  const std::string svg = draw_time_response(picture, PictureFormat::svg);
+  const std::string svg = draw(time_plot(picture), PictureFormat::svg);
   EXPECT_TRUE(is_well_formed(svg));
   const std::string text = visible_text(svg);
   EXPECT_THAT(text, HasSubstr("it's a "));
@@ -232,8 +234,8 @@ TEST(Picture, DegenerateMotionsCanBeDrawn) {
         Drive drive = normal_form(damping, 1.0, 0.5, backlash);
         drive.reference = reference;
         const MotionPicture picture = picture_of(drive, 10.0);
-        EXPECT_TRUE(is_well_formed(draw_time_response(picture, PictureFormat::svg)));
-        EXPECT_TRUE(is_well_formed(draw_phase_plane(picture, PictureFormat::svg)));
+        EXPECT_TRUE(is_well_formed(draw(time_plot(picture), PictureFormat::svg)));
+        EXPECT_TRUE(is_well_formed(draw(phase_plot(picture), PictureFormat::svg)));
       }
     }
   }
@@ -242,40 +244,40 @@ TEST(Picture, DegenerateMotionsCanBeDrawn) {
 TEST(EdgePicture, APlaneWithoutACycleSaysSo) {
   MotionPicture picture = sample_picture();
   picture.motions.clear();
-  EXPECT_THAT(visible_text(draw_phase_plane(picture, PictureFormat::svg)),
+  EXPECT_THAT(visible_text(draw(phase_plot(picture), PictureFormat::svg)),
               HasSubstr("no cycle was found"));
 }
 
 TEST(EdgePicture, AChartOfNothingHasItsAxesAndSaysWhy) {
-  LineChart chart{.title = "the title",
-                  .x = {.label = "across", .low = 0.7, .high = 0.9},
-                  .y = {.label = "upwards"},
-                  .curves = {{.name = "servo: rests"}},
-                  .empty_meaning = "no limit cycle"};
+  const auto panel_of = [](double nothing, std::optional<double> low, bool logarithmic = false) {
+    Panel panel{.x = {.name = "across", .low = 0.7, .high = 0.9},
+                .y = {.name = "upwards", .logarithmic = logarithmic, .low = low}};
+    add_curves({{.name = "servo: rests", .line = {{0.7, nothing}, {0.9, nothing}}}}, 0.8, panel);
+    say("no limit cycle", panel);
+    return panel;
+  };
   for (const auto low : {std::optional<double>{}, std::optional<double>{0.0}}) {
-    chart.y.low = low;
     for (const double nothing : {NAN, INFINITY, -INFINITY}) {
-      chart.curves.front().line = {{0.7, nothing}, {0.9, nothing}};
-      const std::string text = visible_text(draw_line_chart(chart, PictureFormat::svg));
+      const std::string text =
+          visible_text(draw(plot_of("the title", "", panel_of(nothing, low)), PictureFormat::svg));
       for (const char* word : {"the title", "across", "upwards", "no limit cycle", "0.75"}) {
         EXPECT_THAT(text, HasSubstr(word));
       }
     }
   }
-  chart.curves.front().line.clear();
-  chart.y = {.label = "upwards", .logarithmic = true};
-  EXPECT_THAT(visible_text(draw_line_chart(chart, PictureFormat::svg)), HasSubstr("servo: rests"));
-  EXPECT_THAT(draw_line_chart(chart, PictureFormat::png), StartsWith("\x89PNG"));
-  EXPECT_THAT(draw_line_chart(chart, PictureFormat::pdf), StartsWith("%PDF-"));
+  const Plot plot = plot_of("", "", panel_of(NAN, std::nullopt, true));
+  EXPECT_THAT(visible_text(draw(plot, PictureFormat::svg)), HasSubstr("servo: rests"));
+  EXPECT_THAT(draw(plot, PictureFormat::png), StartsWith("\x89PNG"));
+  EXPECT_THAT(draw(plot, PictureFormat::pdf), StartsWith("%PDF-"));
 }
 
 /// What stands below the x axis, from its ends given.
 std::string numbers_of_axis(double low, double high, bool logarithmic) {
-  const LineChart chart{.x = {.logarithmic = logarithmic, .low = low, .high = high},
-                        .y = {.low = 0.0, .high = 1.0},
-                        .curves = {{.line = {{low, 0.0}, {high, 1.0}}}}};
+  const Panel panel{.x = {.logarithmic = logarithmic, .low = low, .high = high},
+                    .y = {.low = 0.0, .high = 1.0},
+                    .layers = {{.points = {{low, 0.0}, {high, 1.0}}}}};
   std::string text;
-  for (const char c : visible_text(draw_line_chart(chart, PictureFormat::svg))) {
+  for (const char c : visible_text(draw(plot_of("", "", panel), PictureFormat::svg))) {
     if (std::isspace(static_cast<unsigned char>(c)) == 0) text += c;
   }
   return text;
@@ -287,13 +289,13 @@ TEST(EdgePicture, NumbersOfSmallAndWideAxesArePowersOfTen) {
     double high;
     bool logarithmic;
     const char* numbers;
-  } cases[] = {{1e-6, 1e3, true, "10-610-410-2100102"},
-               {1e-7, 1.0, true, "10-710-610-510-410-310-210-1100"},
-               {2e-5, 1.0, true, "10-410-310-210-1100"},
-               {1.0, 1e7, true, "100101102103104105106107"},
-               {2e-5, 9e-5, true, "2·10-55·10-5"},
-               {2e-5, 2.4e-5, true, "2·10-52.1·10-52.2·10-52.3·10-5"},
-               {1e-7, 2e-7, false, "1·10-71.2·10-71.4·10-71.6·10-71.8·10-7"}};
+  } cases[] = {{1e-6, 1e3, true, "10⁻⁶10⁻⁴10⁻²10⁰10²"},
+               {1e-7, 1.0, true, "10⁻⁷10⁻⁶10⁻⁵10⁻⁴10⁻³10⁻²10⁻¹10⁰"},
+               {2e-5, 1.0, true, "10⁻⁴10⁻³10⁻²10⁻¹10⁰"},
+               {1.0, 1e7, true, "10⁰10¹10²10³10⁴10⁵10⁶10⁷"},
+               {2e-5, 9e-5, true, "2·10⁻⁵5·10⁻⁵"},
+               {2e-5, 2.4e-5, true, "2·10⁻⁵2.1·10⁻⁵2.2·10⁻⁵2.3·10⁻⁵2.4·10⁻⁵"},
+               {1e-7, 2e-7, false, "100120140160180200"}};
   for (const auto& [low, high, logarithmic, numbers] : cases) {
     const std::string text = numbers_of_axis(low, high, logarithmic);
     EXPECT_THAT(text, HasSubstr(numbers));
@@ -312,15 +314,15 @@ TEST(EdgePicture, ALogarithmicAxisHasTwoLabelsOrMore) {
   for (const auto& [low, high, numbers] : cases) {
     EXPECT_THAT(numbers_of_axis(low, high, true), HasSubstr(numbers));
   }
-  LineChart chart{.x = {.logarithmic = true},
-                  .y = {.low = 0.0, .high = 1.0},
-                  .curves = {{.line = {{0.02, 0.0}, {0.2, 1.0}}}}};
-  EXPECT_THAT(visible_text(draw_line_chart(chart, PictureFormat::svg)), HasSubstr("0.05"));
+  const Panel panel{.x = {.logarithmic = true},
+                    .y = {.low = 0.0, .high = 1.0},
+                    .layers = {{.points = {{0.02, 0.0}, {0.2, 1.0}}}}};
+  EXPECT_THAT(visible_text(draw(plot_of("", "", panel), PictureFormat::svg)), HasSubstr("0.05"));
 }
 
 TEST(Picture, WhatCouldNotBeReadIsRefused) {
   MotionPicture picture = picture_of(sample_drive(), 2.0 * most_periods_drawn * 6.3);
-  EXPECT_THROW(draw_time_response(picture, PictureFormat::svg), InvalidInput);
+  EXPECT_THROW(time_plot(picture), InvalidInput);
 }
 
 }  // namespace

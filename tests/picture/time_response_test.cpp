@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "picture/axis_scale.hpp"
-#include "picture/gnuplot_script.hpp"
+#include "picture/gnuplot_renderer.hpp"
 #include "picture/hunting_drive.hpp"
 #include "picture/motion_picture.hpp"
 #include "picture/shown_end.hpp"
@@ -83,31 +82,58 @@ TEST(ShownEnd, AReferenceFarAwayIsNotShown) {
   EXPECT_EQ(end.shown_errors().low, 0.0);
 }
 
-TEST(AxisScale, NumbersAreShortWhateverTheirSize) {
-  EXPECT_EQ(axis_scale('y', "gap", "rad", {-2.9e-7, 2.9e-7}, 4).label, "gap (nrad)");
-  EXPECT_EQ(axis_scale('y', "gap", "rad", {-2.9e-7, 2.9e-7}, 4).tics,
-            "set ytics ('-200' -2e-07, '0' 0, '200' 2e-07)\n");
-  EXPECT_EQ(axis_scale('y', "position", "rad", {0.0, 0.016}, 6).label, "position (mrad)");
-  EXPECT_EQ(axis_scale('y', "position", "deg", {0.0, 0.004}, 6).label, "position (10⁻³ deg)");
-  EXPECT_EQ(axis_scale('y', "torque", "N m", {-2.5e6, 1e6}, 6).label, "torque (MN m)");
-  EXPECT_EQ(axis_scale('x', "time", "s", {0.0, 4.6}, 6).tics,
-            "set xtics ('0' 0, '1' 1, '2' 2, '3' 3, '4' 4)\n");
-  EXPECT_EQ(axis_scale('y', "position", "deg", {0.0, 25.0}, 6).label, "position (deg)");
+/// The y axis of a panel as high as the gap's.
+DrawnAxis axis_of(const char* name, const char* unit, const Bounds& range) {
+  return drawn_y(
+      {.y = {.name = name, .unit = unit, .low = range.low, .high = range.high}, .height = 120.0});
 }
 
-TEST(AxisScale, StepsAreAtMostThoseAskedFor) {
+std::string numbers_of(const DrawnAxis& axis) {
+  std::string text;
+  for (const Tic& tic : axis.tics) text += tic.text + " ";
+  return text;
+}
+
+TEST(DrawnAxis, NumbersAreShortWhateverTheirSize) {
+  const DrawnAxis gap = axis_of("gap", "rad", {-2.9e-7, 2.9e-7});
+  EXPECT_EQ(gap.label, "gap (nrad)");
+  EXPECT_EQ(numbers_of(gap), "-200 0 200 ");
+  EXPECT_DOUBLE_EQ(gap.tics.front().at, -2e-7);
+  EXPECT_EQ(axis_of("position", "rad", {0.0, 0.016}).label, "position (mrad)");
+  EXPECT_EQ(axis_of("position", "deg", {0.0, 0.004}).label, "position (10⁻³ deg)");
+  EXPECT_EQ(axis_of("torque", "N m", {-2.5e6, 1e6}).label, "torque (MN m)");
+  EXPECT_EQ(axis_of("share", "", {0.0, 0.004}).label, "share (10⁻³)");
+  EXPECT_EQ(numbers_of(axis_of("time", "s", {0.0, 3.6})), "0 1 2 3 ");
+  EXPECT_EQ(axis_of("position", "deg", {0.0, 25.0}).label, "position (deg)");
+}
+
+TEST(DrawnAxis, StepsAreAtMostThoseAskedFor) {
   EXPECT_EQ(round_step(1.0, 6), 0.2);
   EXPECT_EQ(round_step(1.0, 5), 0.2);
   EXPECT_EQ(round_step(1.0, 4), 0.5);
   EXPECT_EQ(round_step(1.0, 10), 0.1);
 }
 
-TEST(Wrapped, LongLinesBreakAfterASemicolonElseAComma) {
-  EXPECT_EQ(wrapped("short", 10), std::vector<std::string>{"short"});
-  EXPECT_EQ(wrapped("hunts by steps, and so on; runs away", 20),
-            (std::vector<std::string>{"hunts by steps, and so on;", "runs away"}));
-  EXPECT_EQ(wrapped("one two, three four five six", 20),
-            (std::vector<std::string>{"one two,", "three four five six"}));
+/// The lines of a picture's subtitle.
+std::vector<std::string> lines_of(const std::string& subtitle) {
+  const std::string svg = draw(plot_of("", subtitle, {}), PictureFormat::svg);
+  std::vector<std::string> lines;
+  const std::string before = "font-size=\"13.1\">";
+  for (std::size_t at = svg.find(before); at != std::string::npos; at = svg.find(before, at + 1)) {
+    const std::size_t begin = at + before.size();
+    lines.push_back(svg.substr(begin, svg.find('<', begin) - begin));
+  }
+  return lines;
+}
+
+TEST(Plot, LongLinesBreakAfterASemicolonElseAComma) {
+  const std::string word(30, 'x');
+  const std::string words = word + " " + word + ", " + word;
+  EXPECT_THAT(lines_of(word), testing::Contains(word));
+  EXPECT_THAT(lines_of(word + ", and so on; " + word + " " + word + " " + word),
+              testing::IsSupersetOf({word + ", and so on;", word + " " + word + " " + word}));
+  EXPECT_THAT(lines_of(words + " " + word),
+              testing::IsSupersetOf({word + " " + word + ",", word + " " + word}));
 }
 
 /// A drive of the general engine that hunts, whose encoder has coarse steps.
@@ -128,18 +154,18 @@ MotionPicture picture_of(const Drive& drive, double until) {
 
 TEST(TimeResponse, TheEndHasAColumnOfItsOwnWithEncoderSteps) {
   const std::string text =
-      visible_text(draw_time_response(picture_of(coarse_drive(), 60.0), PictureFormat::svg));
+      visible_text(draw(time_plot(picture_of(coarse_drive(), 60.0)), PictureFormat::svg));
   EXPECT_THAT(text, AllOf(HasSubstr("s, enlarged"), HasSubstr("from the reference (rad)"),
                           HasSubstr("encoder steps"), HasSubstr("encoder step 0.0628 rad"),
                           HasSubstr("hunts: ±0.2 rad")));
   Drive exact = coarse_drive();
   exact.sensor.encoder.counts_per_turn.reset();
-  EXPECT_THAT(visible_text(draw_time_response(picture_of(exact, 60.0), PictureFormat::svg)),
+  EXPECT_THAT(visible_text(draw(time_plot(picture_of(exact, 60.0)), PictureFormat::svg)),
               AllOf(HasSubstr("s, enlarged"), Not(HasSubstr("encoder"))));
 }
 
 TEST(TimeResponse, EachThingHasOneNameInTheLegend) {
-  std::string text = draw_time_response(picture_of(coarse_drive(), 60.0), PictureFormat::svg);
+  std::string text = draw(time_plot(picture_of(coarse_drive(), 60.0)), PictureFormat::svg);
   // A layer's title is what a browser shows beside the pointer.
   for (std::size_t from = text.find("<title>"); from != std::string::npos;
        from = text.find("<title>", from)) {
@@ -152,7 +178,7 @@ TEST(TimeResponse, EachThingHasOneNameInTheLegend) {
 
 /// The reference is the only line of its grey: no stroke of it goes from one height to another.
 TEST(TimeResponse, ALeapOfTheReferenceIsNotJoinedByALine) {
-  const std::string svg = draw_time_response(picture_of(coarse_drive(), 60.0), PictureFormat::svg);
+  const std::string svg = draw(time_plot(picture_of(coarse_drive(), 60.0)), PictureFormat::svg);
   const std::vector<test::Stroke> strokes = test::strokes_of(svg, "stroke='rgb( 85,  85,  85)'");
   EXPECT_GT(strokes.size(), 2U);
   for (const test::Stroke& stroke : strokes) {

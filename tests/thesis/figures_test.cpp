@@ -8,6 +8,7 @@
 #include "closed_form/growth_at_rest.hpp"
 #include "closed_form/limit_cycle.hpp"
 #include "closed_form/servo_dynamics.hpp"
+#include "picture/gnuplot_renderer.hpp"
 #include "thesis/settled_cycle.hpp"
 
 namespace gearlash::thesis::figures_test {
@@ -46,13 +47,13 @@ TEST(Figures, AreThoseOfTheThesis) {
 TEST(OracleFigures, ExactCurvesAreSingleCallsAndTheProgramIsNear) {
   const Figure& chart = figure(8);
   const FigureCurve& curve = chart.curves.at(1);
-  const ChartCurve data = work_out(chart, curve);
-  for (const ChartPoint& point : data.line) {
+  const NamedCurve data = work_out(chart, curve);
+  for (const MapPoint& point : data.line) {
     const auto analysis = analyse_limit_cycles(servo_at(chart, curve, point.x));
     ASSERT_EQ(point.y, analysis.cycles.at(0).amplitude);
   }
   ASSERT_EQ(data.marks.size(), chart.grid.size());
-  for (const ChartPoint& point : data.marks) {
+  for (const MapPoint& point : data.marks) {
     const double exact =
         analyse_limit_cycles(servo_at(chart, curve, point.x)).cycles.at(0).amplitude;
     // "Sizes 1 to 4 % too large", and the scatter of the grid.
@@ -65,7 +66,7 @@ TEST(OracleFigures, CurvesEndWhereTheGrowthAtRestIsOne) {
   const Figure& chart = figure(3);
   int ends = 0;
   for (const FigureCurve& curve : chart.curves) {
-    for (const ChartPoint& end : work_out(chart, curve).ends) {
+    for (const MapPoint& end : work_out(chart, curve).ends) {
       ++ends;
       const NormalizedServo servo = servo_at(chart, curve, end.x);
       EXPECT_NEAR(growth_at_rest(servo_dynamics(servo)), 1.0, 1e-9) << curve.name;
@@ -76,19 +77,18 @@ TEST(OracleFigures, CurvesEndWhereTheGrowthAtRestIsOne) {
 
 TEST(Figures, SizeIsProportionalToBacklash) {
   const Figure& chart = figure(4);
-  const ChartCurve data = work_out(chart, chart.curves.at(0));
-  for (const ChartPoint& point : data.line) {
+  const NamedCurve data = work_out(chart, chart.curves.at(0));
+  for (const MapPoint& point : data.line) {
     EXPECT_NEAR(point.y, data.line.back().y * point.x / data.line.back().x, 1e-12);
   }
 }
 
 TEST(Figures, AreDrawn) {
   const Figure& chart = figure(11);
-  const std::string svg = draw_line_chart(chart_of(chart), PictureFormat::svg);
+  const std::string svg = draw(plot_of(chart), PictureFormat::svg);
   EXPECT_NE(svg.find("Design chart for friction ratio of 1.0"), std::string::npos);
   EXPECT_NE(svg.find("damping 0.6"), std::string::npos);
-  const std::string phase =
-      draw_line_chart(chart_of(thesis_phase_figures().front()), PictureFormat::svg);
+  const std::string phase = draw(plot_of(thesis_phase_figures().front()), PictureFormat::svg);
   EXPECT_NE(phase.find("motor, in the gap"), std::string::npos);
 }
 

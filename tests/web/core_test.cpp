@@ -144,15 +144,12 @@ TEST_F(WebCore, ParametersHaveValueUnitAndSlider) {
 
 TEST_F(WebCore, CurvesAreColumnsOfOneLength) {
   const Json reply = ask({{"ask", "answer"}, {"drive", drive(servo)}});
-  const Json& motion = reply["phase"]["motions"][0];
+  const Json& motion = reply["response"]["motions"][0];
   const std::size_t count = column(motion["columns"]["time"]).size();
   ASSERT_GT(count, 100U);
   for (const auto& [name, place] : motion["columns"].items()) {
     EXPECT_EQ(column(place).size(), count) << name;
   }
-  std::size_t in_pieces = 0;
-  for (const Json& piece : motion["pieces"]) in_pieces += piece[0].get<std::size_t>();
-  EXPECT_EQ(in_pieces, count);
   const std::vector<double> time = column(motion["columns"]["time"]);
   EXPECT_TRUE(std::is_sorted(time.begin(), time.end()));
 }
@@ -173,8 +170,14 @@ TEST_F(WebCore, AMapHasItsBorderAndItsUnits) {
                           {"drive", drive(servo)},
                           {"x", "servo.inertia_ratio=0.1:10:15:log"},
                           {"y", "servo.damping=0.05:2:15:log"}});
-  EXPECT_FALSE(reply["boundary"].empty());
-  EXPECT_FALSE(reply["contours"].empty());
+  const Json& panel = reply["plot"]["columns"][0][0];
+  bool has_border = false;
+  for (const Json& layer : panel["layers"]) {
+    has_border =
+        has_border || (layer["name"] == "hunting ends" && !column(layer["points"]).empty());
+  }
+  EXPECT_TRUE(has_border);
+  EXPECT_FALSE(panel["texts"].empty());  // the contours' numbers
   EXPECT_EQ(reply["axes"]["x"]["path"], "servo.inertia_ratio");
 }
 
@@ -189,9 +192,16 @@ TEST_F(WebCore, AMapOfMorePointsThanAStdSizeTOfWebAssemblyIsRefused) {
 TEST_F(WebCore, AChartHasBranchesAndTheBorderOfHunting) {
   const Json reply =
       ask({{"ask", "chart"}, {"drive", drive(servo)}, {"x", "servo.damping=0.1:2:25:log"}});
-  ASSERT_EQ(reply["branches"].size(), 1U);
-  EXPECT_EQ(reply["branches"][0]["stability"], "stable");
-  EXPECT_FALSE(reply["borders"].empty());
+  std::vector<std::string> names;
+  for (const Json& layer : reply["plot"]["columns"][0][0]["layers"]) {
+    if (!column(layer["points"]).empty()) names.push_back(layer["name"]);
+  }
+  EXPECT_EQ(std::count(names.begin(), names.end(), "stable cycle"), 1);
+  EXPECT_EQ(std::count(names.begin(), names.end(), "unstable cycle"), 0);
+  const bool has_border = std::any_of(names.begin(), names.end(), [](const std::string& name) {
+    return !name.empty() && name != "stable cycle" && name != "can come to rest";
+  });
+  EXPECT_TRUE(has_border);
 }
 
 TEST_F(WebCore, MarginsAreTextsThatCanBeSet) {
@@ -216,8 +226,11 @@ TEST_F(WebCore, MarginsAreInTheUnitOfTheAuthor) {
 
 TEST_F(WebCore, AFigureOfTheThesisHasTheProgramsPoints) {
   const Json reply = ask({{"ask", "thesis"}, {"figure", 12}});
-  EXPECT_FALSE(column(reply["curves"][0]["line"]).empty());
-  EXPECT_FALSE(column(reply["curves"][0]["marks"]).empty());
+  const Json& layers = reply["columns"][0][0]["layers"];
+  EXPECT_EQ(layers[0]["name"], "load");
+  EXPECT_FALSE(column(layers[0]["points"]).empty());
+  EXPECT_EQ(layers[1]["kind"], "marks");
+  EXPECT_FALSE(column(layers[1]["points"]).empty());
 }
 
 TEST_F(WebCore, ASearchEndsWithWhatIsKnownWhenItsTimeIsOver) {

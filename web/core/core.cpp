@@ -138,8 +138,10 @@ class Core::Session {
                  {"unit_in_si", written.angle.radians}};
     if (is_drawn(analysis)) {
       json["response"] = motion_picture_json(response_picture(report, analysis), numbers_);
-      json["phase"] =
-          motion_picture_json(phase_of(report, analysis, is_coarse, progress), numbers_);
+      MotionPicture phase = phase_of(report, analysis, is_coarse, progress);
+      json["phase"] = phase_json(phase);
+      std::erase_if(phase.motions, [](const DrawnMotion& drawn) { return !drawn.is_cycle; });
+      json["cycles"] = motion_picture_json(phase, numbers_);
     }
     // What is known of a drive with one start is too little to follow; and where following failed,
     // trying it again from ever farther away would cost more than the start.
@@ -149,6 +151,15 @@ class Core::Session {
       last_toml_ = text.toml;
     }
     return json;
+  }
+
+  /// Null for motions with too many events to draw.
+  Json phase_json(const MotionPicture& picture) {
+    try {
+      return plot_json(phase_plot(picture), numbers_);
+    } catch (const InvalidInput&) {
+      return nullptr;
+    }
   }
 
   static bool is_drawn(const Analysis& analysis) {
@@ -177,10 +188,10 @@ class Core::Session {
 
   Json thesis_figure(int number, Progress& progress) {
     for (const thesis::PhaseFigure& figure : thesis::thesis_phase_figures()) {
-      if (figure.number == number) return line_chart_json(chart_of(figure), numbers_);
+      if (figure.number == number) return plot_json(plot_of(figure), numbers_);
     }
     for (const thesis::Figure& figure : thesis::thesis_figures()) {
-      if (figure.number == number) return line_chart_json(chart_of(figure, progress), numbers_);
+      if (figure.number == number) return plot_json(plot_of(figure, progress), numbers_);
     }
     refuse("figure", std::to_string(number), "must be the number of a figure: 2 to 15");
   }

@@ -8,6 +8,7 @@
 #include "gearlash/grid.hpp"
 #include "input/axis_text.hpp"
 #include "output/grid_table.hpp"
+#include "picture/bifurcation_picture.hpp"
 #include "picture/grid_map.hpp"
 #include "picture/grid_words.hpp"
 #include "picture_reply.hpp"
@@ -19,9 +20,9 @@ namespace {
 
 /// An axis with its drawn unit, for placing a mark.
 Json axis_facts(const Axis& axis, const Drive& drive, const AngleUnit& angle) {
-  const ChartAxis drawn = chart_axis(axis, drive, angle);
+  const PlotAxis drawn = plot_axis(axis, drive, angle);
   return {{"path", axis.path},
-          {"label", drawn.label},
+          {"label", drawn.name + (drawn.unit.empty() ? "" : " (" + drawn.unit + ")")},
           {"logarithmic", axis.logarithmic},
           {"unit_in_si", drawn_unit(axis, drive, angle)}};
 }
@@ -42,14 +43,6 @@ void require_few(const Grid& grid) {
                        ""}});
 }
 
-Json branch_json(const CycleBranch& branch, const AngleUnit& angle, double unit, Numbers& numbers) {
-  std::vector<double> curve;
-  for (const CycleAt& cycle : branch.points) {
-    curve.insert(curve.end(), {cycle.parameter / unit, angle.from_radians(cycle.amplitude)});
-  }
-  return {{"stability", name_of(branch.stability)}, {"line", numbers.add(curve)}};
-}
-
 }  // namespace
 
 Json map_reply(const Json& request, const WrittenDrive& written, Numbers& numbers,
@@ -65,7 +58,7 @@ Json map_reply(const Json& request, const WrittenDrive& written, Numbers& number
   table.table = Table(grid.size(), quantities);
   const RowCount count = evaluate(Family(grid), grid, 0, table.table, progress);
   add_borders(table, progress);
-  Json json = contour_map_json(map_of(table, Quantity::amplitude), numbers);
+  Json json = {{"plot", plot_json(map_plot(table, Quantity::amplitude), numbers)}};
   json["axes"] = {{"x", axis_facts(grid.axes[1], grid.drive, written.angle)},
                   {"y", axis_facts(grid.axes[0], grid.drive, written.angle)}};
   json["is_complete"] = !count.stopped;
@@ -76,34 +69,12 @@ Json chart_reply(const Json& request, const WrittenDrive& written, Numbers& numb
                  Progress& progress) {
   const Axis axis = read("x", request, written.drive);
   require_none(faults(Grid{.drive = written.drive, .axes = {axis}}, {"x"}));
+  const Grid grid{.drive = written.drive, .axes = {axis}};
   const BifurcationDiagram diagram = bifurcations_of(written.drive, axis, progress);
-  const AngleUnit& angle = written.angle;
-  const double unit = drawn_unit(axis, written.drive, angle);
-  std::vector<double> irregular;
-  for (const IrregularAt& motion : diagram.irregular) {
-    irregular.insert(irregular.end(),
-                     {motion.parameter / unit, angle.from_radians(motion.amplitude)});
-  }
-  return {
-      {"x", axis_facts(axis, written.drive, angle)},
-      {"low", axis.values.front() / unit},
-      {"high", axis.values.back() / unit},
-      {"y_label", "amplitude (" + angle.name + ")"},
-      {"branches", json_list(diagram.branches,
-                             [&](const CycleBranch& branch) {
-                               return branch_json(branch, angle, unit, numbers);
-                             })},
-      {"irregular", numbers.add(irregular)},
-      {"borders", json_list(diagram.borders,
-                            [&](const MarkedBorder& border) {
-                              return Json{{"at", border.parameter / unit}, {"word", border.word}};
-                            })},
-      {"rests", json_list(diagram.rests,
-                          [&](const Bounds& rest) {
-                            return Json{rest.low / unit, rest.high / unit};
-                          })},
-      {"searched", diagram.searched},
-      {"is_complete", diagram.is_complete}};
+  return {{"plot",
+           plot_json(bifurcation_plot(diagram, grid, Quantity::amplitude, written.angle), numbers)},
+          {"axes", {{"x", axis_facts(axis, written.drive, written.angle)}}},
+          {"is_complete", diagram.is_complete}};
 }
 
 }  // namespace gearlash::web

@@ -12,35 +12,13 @@
 namespace gearlash::web {
 namespace {
 
-const char* name_of(MotionRole role) {
-  switch (role) {
-    case MotionRole::subject:
-      return "subject";
-    case MotionRole::background:
-      return "background";
-    case MotionRole::unstable:
-      return "unstable";
-    case MotionRole::to_rest:
-      return "to rest";
-    case MotionRole::to_hunting:
-      return "to hunting";
-    case MotionRole::running_away:
-      return "running away";
-    case MotionRole::not_known:
-      return "not known";
-  }
-  return "";
-}
-
 struct Column {
   const char* name;
   double DrawnPoint::*member;
 };
-constexpr std::array<Column, 7> columns = {{{"time", &DrawnPoint::time},
+constexpr std::array<Column, 5> columns = {{{"time", &DrawnPoint::time},
                                             {"load", &DrawnPoint::load_position},
-                                            {"load_speed", &DrawnPoint::load_speed},
                                             {"motor", &DrawnPoint::motor_position},
-                                            {"motor_speed", &DrawnPoint::motor_speed},
                                             {"torque", &DrawnPoint::motor_torque},
                                             {"reference", &DrawnPoint::reference}}};
 
@@ -71,10 +49,7 @@ Json columns_json(const std::vector<DrawnPiece>& pieces, const drive::Sensing& s
 
 Json motion_json(const DrawnMotion& drawn, const MotionPicture& picture,
                  const drive::Sensing& sensing, Numbers& numbers) {
-  Json json = {{"name", drawn.name},
-               {"name_of_motor", drawn.name_of_motor.empty() ? drawn.name : drawn.name_of_motor},
-               {"role", name_of(drawn.role)},
-               {"is_cycle", drawn.is_cycle}};
+  Json json = {{"name", drawn.name}};
   std::vector<DrawnPiece> pieces;
   try {
     pieces = legible_curve(picture, drawn.motion);
@@ -83,49 +58,62 @@ Json motion_json(const DrawnMotion& drawn, const MotionPicture& picture,
     return json;
   }
   json["columns"] = columns_json(pieces, sensing, picture.angle, numbers);
-  json["pieces"] = json_list(pieces, [](const DrawnPiece& piece) {
-    return Json{piece.points.size(), piece.is_apart, piece.is_bounce, piece.ends_with_impact};
-  });
   json["events"] = json_list(drawn.motion.events(), [](const MotionEvent& event) {
     return Json{event.time, event.what, event.mode_after};
   });
   return json;
 }
 
-Json window_json(const PhaseWindow& window, Numbers& numbers) {
-  Json borders = Json::array();
-  for (const auto& border : window.borders) {
-    std::vector<double> curve;
-    for (const auto& [x, y] : border) curve.insert(curve.end(), {x, y});
-    borders.push_back(numbers.add(curve));
-  }
-  return {{"positions", {window.positions.low, window.positions.high}},
-          {"speeds", {window.speeds.low, window.speeds.high}},
-          {"is_of_motor", window.is_of_motor},
-          {"borders", std::move(borders)}};
-}
-
-Json points_json(const std::vector<ChartPoint>& points, Numbers& numbers) {
-  std::vector<double> curve;
-  for (const ChartPoint& point : points) curve.insert(curve.end(), {point.x, point.y});
-  return numbers.add(curve);
-}
-
-Json curves_json(const std::vector<MapCurve>& curves, Numbers& numbers) {
-  return json_list(curves, [&](const MapCurve& points) {
-    std::vector<double> curve;
-    for (const MapPoint& point : points) curve.insert(curve.end(), {point.x, point.y});
-    return numbers.add(curve);
-  });
-}
-
-Json axis_json(const ChartAxis& axis) {
+Json axis_json(const DrawnAxis& axis, bool is_logarithmic) {
   return {{"label", axis.label},
-          {"logarithmic", axis.logarithmic},
-          {"low", json_optional(axis.low)},
-          {"high", json_optional(axis.high)},
-          {"tics", json_list(axis.tics, [](const auto& tic) {
-             return Json{tic.first, tic.second};
+          {"logarithmic", is_logarithmic},
+          {"low", axis.ends.low},
+          {"high", axis.ends.high},
+          {"tics", json_list(axis.tics, [](const Tic& tic) {
+             return Json{tic.text, tic.at};
+           })}};
+}
+
+const char* name_of(LayerKind kind) {
+  switch (kind) {
+    case LayerKind::line:
+      return "line";
+    case LayerKind::area:
+      return "area";
+    case LayerKind::marks:
+      return "marks";
+    case LayerKind::hatching:
+      return "hatching";
+  }
+  return "";
+}
+
+const char* name_of(Mark mark) {
+  constexpr std::array names = {"plus",     "cross",         "star",    "open_square",
+                                "square",   "circle",        "disc",    "open_triangle",
+                                "triangle", "open_wedge",    "wedge",   "open_diamond",
+                                "diamond",  "open_pentagon", "pentagon"};
+  return names.at(static_cast<std::size_t>(mark));
+}
+
+Json layer_json(const Layer& layer, Numbers& numbers) {
+  std::vector<double> points;
+  for (const MapPoint& point : layer.points) points.insert(points.end(), {point.x, point.y});
+  return {{"kind", name_of(layer.kind)}, {"name", layer.name},
+          {"colour", layer.colour},      {"width", layer.width},
+          {"dashes", layer.dashes},      {"mark", name_of(layer.mark)},
+          {"size", layer.size},          {"points", numbers.add(points)}};
+}
+
+Json panel_json(const Panel& panel, Numbers& numbers) {
+  return {{"title", panel.title},
+          {"x", axis_json(drawn_x(panel), panel.x.logarithmic)},
+          {"y", axis_json(drawn_y(panel), panel.y.logarithmic)},
+          {"layers",
+           json_list(panel.layers, [&](const Layer& layer) { return layer_json(layer, numbers); })},
+          {"texts", json_list(panel.texts, [](const PlotText& text) {
+             return Json{
+                 {"x", text.at.x}, {"y", text.at.y}, {"text", text.text}, {"colour", text.colour}};
            })}};
 }
 
@@ -135,62 +123,25 @@ Json motion_picture_json(const MotionPicture& picture, Numbers& numbers) {
   const drive::ReducedDrive reduced = reduce(picture.drive);
   const AngleUnit& angle = picture.angle;
   Json json = {
-      {"title", picture.title},
       {"subtitle", picture.subtitle},
-      {"numbers", numbers_line(picture)},
       {"unit", angle.name},
       {"time_unit", is_normalized(picture.drive) ? "1/ω_n" : "s"},
-      {"speed_unit", angle.name + (is_normalized(picture.drive) ? " ω_n" : "/s")},
       {"torque_unit", is_normalized(picture.drive) ? "K rad" : "N m"},
       {"gap", angle.from_radians(reduced.backlash)},
       {"torque_limit", std::isfinite(reduced.torque_limit) ? Json(reduced.torque_limit) : Json()}};
   json["motions"] = json_list(picture.motions, [&](const DrawnMotion& drawn) {
     return motion_json(drawn, picture, reduced.sensing, numbers);
   });
-  json["window"] = picture.window ? window_json(*picture.window, numbers) : Json(nullptr);
   return json;
 }
 
-Json contour_map_json(const ContourMap& map, Numbers& numbers) {
-  return {{"title", map.title},
-          {"subtitle", map.subtitle},
-          {"x", axis_json(map.x)},
-          {"y", axis_json(map.y)},
-          {"regions", json_list(map.regions,
-                                [&](const ColouredRegion& region) {
-                                  return Json{{"meaning", region.meaning},
-                                              {"colour", region.colour},
-                                              {"outlines", curves_json(region.outlines, numbers)}};
-                                })},
-          {"contours", json_list(map.contours,
-                                 [&](const Contour& contour) {
-                                   return Json{{"level", contour.level},
-                                               {"curves", curves_json(contour.curves, numbers)}};
-                                 })},
-          {"boundary", curves_json(map.boundary, numbers)},
-          {"hatching", curves_json(map.hatching, numbers)},
-          {"inner_boundary", curves_json(map.inner_boundary, numbers)},
-          {"inner_hatching", curves_json(map.inner_hatching, numbers)},
-          {"boundary_meaning", map.boundary_meaning},
-          {"hatching_meaning", map.hatching_meaning},
-          {"inner_meaning", map.inner_meaning}};
-}
-
-Json line_chart_json(const LineChart& chart, Numbers& numbers) {
-  return {{"title", chart.title},
-          {"subtitle", chart.subtitle},
-          {"x", axis_json(chart.x)},
-          {"y", axis_json(chart.y)},
-          {"curves", json_list(chart.curves,
-                               [&](const ChartCurve& curve) {
-                                 return Json{{"name", curve.name},
-                                             {"line", points_json(curve.line, numbers)},
-                                             {"marks", points_json(curve.marks, numbers)},
-                                             {"ends", points_json(curve.ends, numbers)}};
-                               })},
-          {"line_meaning", chart.line_meaning},
-          {"mark_meaning", chart.mark_meaning},
-          {"end_meaning", chart.end_meaning}};
+Json plot_json(const Plot& plot, Numbers& numbers) {
+  return {{"title", plot.title},
+          {"subtitles", plot.subtitles},
+          {"columns", json_list(plot.columns, [&](const PlotColumn& column) {
+             return json_list(column,
+                              [&](const Panel& panel) { return panel_json(panel, numbers); });
+           })}};
 }
 
 }  // namespace gearlash::web

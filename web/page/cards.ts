@@ -17,7 +17,6 @@ function curvesOf(plot: Plot): string {
   let curve = 0;
   for (const layer of plot.layers) {
     if (layer.kind !== 'line' && layer.kind !== 'marks') continue;
-    if (layer.kind === 'line' && layer.fill) continue;
     ++curve;
     for (let i = 0; i + 1 < layer.points.length; i += 2) {
       if (!Number.isFinite(layer.points[i]!)) continue;

@@ -2,7 +2,7 @@
 import type { Cards } from './cards';
 import { csv } from './downloads';
 import { GearView } from './gears';
-import { phasePlane, positionsOverTime, tracesOf, type Traces } from './pictures';
+import { plotOf, positionsOverTime, tracesOf, type Traces } from './pictures';
 import type { Theme } from './plot';
 import type { AnswerReply, MotionCurve, MotionPicture, Replied } from './replies';
 import { TraceView } from './traces';
@@ -12,7 +12,7 @@ const none = 'There is no motion to draw: it is proved without following one.';
 
 /** Cycles whose points are known, with their places in the picture. */
 const cyclesOf = (picture: MotionPicture | undefined): [MotionCurve, number][] =>
-  (picture?.motions ?? []).map((motion, i): [MotionCurve, number] => [motion, i]).filter(([motion]) => motion.is_cycle && motion.columns);
+  (picture?.motions ?? []).map((motion, i): [MotionCurve, number] => [motion, i]).filter(([motion]) => motion.columns);
 
 /** The columns of a motion as a table. */
 function tracesData(traces: Traces): string {
@@ -50,7 +50,7 @@ export class Motions {
     this.answer = answer;
     const { phase } = answer.reply;
     this.listMotions();
-    if (phase) this.cards.put('phase', { plot: (theme) => phasePlane(phase, answer.numbers, theme) }, this.theme());
+    if (phase) this.cards.put('phase', { plot: (theme) => plotOf(phase, answer.numbers, theme) }, this.theme());
     else this.cards.blank('phase', none);
     this.follow();
   }
@@ -73,7 +73,7 @@ export class Motions {
   }
 
   private listMotions(): void {
-    const names = ['the way there', ...cyclesOf(this.answer!.reply.phase).map(([motion]) => motion.name || 'cycle')];
+    const names = ['the way there', ...cyclesOf(this.answer!.reply.cycles).map(([motion]) => motion.name || 'cycle')];
     if (Array.from(this.list.options, (option) => option.text).join('|') === names.join('|')) return;
     const chosen = Math.max(0, this.list.selectedIndex);
     this.list.textContent = '';
@@ -82,8 +82,8 @@ export class Motions {
   }
 
   private chosen({ reply, numbers }: Replied<AnswerReply>): Traces | null {
-    const cycle = cyclesOf(reply.phase)[this.list.selectedIndex - 1];
-    if (cycle && reply.phase) return { ...tracesOf(reply.phase, numbers, cycle[1]), title: cycle[0].name };
+    const cycle = cyclesOf(reply.cycles)[this.list.selectedIndex - 1];
+    if (cycle && reply.cycles) return { ...tracesOf(reply.cycles, numbers, cycle[1]), title: cycle[0].name };
     return reply.response ? tracesOf(reply.response, numbers) : null;
   }
 }

@@ -29,28 +29,37 @@ export interface PlotAxis {
   low: number;
   high: number;
   logarithmic?: boolean;
+  /** Default: round numbers. Without a text: a short mark. */
   tics?: [string, number][];
 }
 
 /** x and y by turns; NaN interrupts a line. */
 export type Points = ArrayLike<number>;
 
+/** As the core has them, and two of the page. */
 export type Layer =
-  | { kind: 'line'; points: Points; colour: string; width?: number; dash?: string; fill?: string; closed?: boolean }
-  | { kind: 'marks'; points: Points; colour: string; size?: number; open?: boolean; shape?: 'circle' | 'cross' }
+  | {
+      kind: 'line' | 'area' | 'marks' | 'hatching';
+      /** In the legend, which each name enters once. */
+      name?: string;
+      colour: string;
+      points: Points;
+      width?: number;
+      dashes?: string;
+      mark?: string;
+      /** Of a mark; 1 is about the height of a letter. */
+      size?: number;
+    }
   /** The one mark that moves: see moveMark(). */
-  | { kind: 'moving'; at: [number, number]; colour: string }
+  | { kind: 'moving'; name: string; at: [number, number]; colour: string }
   /** Across the whole height. */
-  | { kind: 'band'; from: number; to: number; fill: string }
-  | { kind: 'rule'; at: number; colour: string; dash?: string; text?: string; row?: number }
-  | { kind: 'text'; x: number; y: number; text: string; colour: string };
+  | { kind: 'rule'; at: number; colour: string };
 
-export interface LegendEntry {
-  name: string;
+export interface PlotText {
+  x: number;
+  y: number;
+  text: string;
   colour: string;
-  dash?: string;
-  width?: number;
-  mark?: 'circle' | 'open' | 'cross' | 'diamond' | 'area' | 'hatched';
 }
 
 export interface Plot {
@@ -61,7 +70,7 @@ export interface Plot {
   x: PlotAxis;
   y: PlotAxis;
   layers: Layer[];
-  legend: LegendEntry[];
+  texts?: PlotText[];
 }
 
 const frame = { left: 74, right: 14, top: 12 };
@@ -97,51 +106,58 @@ function pathOf(points: Points, x: Scale, y: Scale, closed: boolean): string {
     path += `${isDrawing ? 'L' : 'M'}${at(Math.max(-1e5, Math.min(1e5, right)))} ${at(Math.max(-1e5, Math.min(1e5, down)))}`;
     isDrawing = true;
   }
-  return closed && path ? `${path}Z` : path;
+  return closed && path ? `${path.replaceAll('M', 'ZM').slice(1)}Z` : path;
 }
 
-function mark(shape: string, right: number, down: number, size: number, colour: string, open: boolean): string {
-  const style = open ? `fill="none" stroke="${colour}" stroke-width="1.5"` : `fill="${colour}"`;
-  if (shape === 'cross') {
-    return `<path d="M${at(right - size)} ${at(down - size)}l${2 * size} ${2 * size}m0 ${-2 * size}l${-2 * size} ${2 * size}" stroke="${colour}" stroke-width="1.6"/>`;
-  }
-  if (shape === 'diamond') {
-    return `<path d="M${at(right)} ${at(down - size)}l${size} ${size}l${-size} ${size}l${-size} ${-size}z" ${style}/>`;
-  }
-  return `<circle cx="${at(right)}" cy="${at(down)}" r="${size}" ${style}/>`;
+/** Corners of marks that are polygons, in half their size. */
+const corners: Record<string, [number, number][]> = {
+  square: [[-1, -1], [1, -1], [1, 1], [-1, 1]],
+  triangle: [[0, -1.2], [1.1, 0.8], [-1.1, 0.8]],
+  wedge: [[0, 1.2], [1.1, -0.8], [-1.1, -0.8]],
+  diamond: [[0, -1.3], [1.3, 0], [0, 1.3], [-1.3, 0]],
+  pentagon: [[0, -1.2], [1.14, -0.37], [0.7, 0.97], [-0.7, 0.97], [-1.14, -0.37]],
+};
+/** Strokes of those that are not. */
+const strokes: Record<string, string> = { plus: 'M-1 0H1M0-1V1', cross: 'M-1-1L1 1M1-1L-1 1', star: 'M-1 0H1M0-1V1M-.8-.8L.8.8M.8-.8L-.8.8' };
+
+function mark(shape: string, right: number, down: number, size: number, colour: string): string {
+  const isOpen = shape.startsWith('open_') || shape === 'circle';
+  const style = isOpen ? `fill="none" stroke="${colour}" stroke-width="1.5"` : `fill="${colour}"`;
+  const polygon = corners[shape.replace('open_', '')];
+  if (polygon) return `<polygon points="${polygon.map(([x, y]) => `${at(right + size * x)},${at(down + size * y)}`).join(' ')}" ${style}/>`;
+  if (strokes[shape]) return `<path transform="translate(${at(right)} ${at(down)}) scale(${at(size)})" d="${strokes[shape]}" stroke="${colour}" stroke-width="${at(1.5 / size)}"/>`;
+  return `<circle cx="${at(right)}" cy="${at(down)}" r="${at(size)}" ${style}/>`;
+}
+
+const radius = (size: number | undefined): number => 5 * (size ?? 0.7);
+
+/** The stroke of a line, or of hatching. */
+function strokeOf(layer: Layer & { dashes?: string; width?: number }): string {
+  const width = layer.kind === 'hatching' ? 0.6 : (layer.width ?? 1.8);
+  const dashes = layer.dashes?.split(',').map((length) => at(Number(length) * Math.max(0.8, width) * 0.7)).join(' ');
+  return `fill="none" stroke="${layer.colour}" stroke-width="${width}"${dashes ? ` stroke-dasharray="${dashes}"` : ''}`;
 }
 
 function layerText(layer: Layer, x: Scale, y: Scale, bottom: number): string {
   switch (layer.kind) {
-    case 'line': {
-      const dash = layer.dash ? ` stroke-dasharray="${layer.dash}"` : '';
-      const stroke = layer.width === 0 ? 'stroke="none"' : `stroke="${layer.colour}" stroke-width="${layer.width ?? 1.8}"${dash}`;
-      return `<path d="${pathOf(layer.points, x, y, layer.closed ?? false)}" fill="${layer.fill ?? 'none'}" ${stroke} stroke-linejoin="round"/>`;
-    }
+    case 'line':
+    case 'hatching':
+      return `<path d="${pathOf(layer.points, x, y, false)}" ${strokeOf(layer)} stroke-linejoin="round"/>`;
+    case 'area':
+      return `<path d="${pathOf(layer.points, x, y, true)}" fill="${layer.colour}"/>`;
     case 'marks': {
       let text = '';
       for (let i = 0; i + 1 < layer.points.length; i += 2) {
         const right = x(layer.points[i]!);
         const down = y(layer.points[i + 1]!);
-        if (!Number.isFinite(right) || !Number.isFinite(down)) continue;
-        text += mark(layer.shape ?? 'circle', right, down, layer.size ?? 3.5, layer.colour, layer.open ?? false);
+        if (Number.isFinite(right) && Number.isFinite(down)) text += mark(layer.mark ?? 'disc', right, down, radius(layer.size), layer.colour);
       }
       return text;
     }
     case 'moving':
-      return `<g class="moving" transform="translate(${at(x(layer.at[0]))} ${at(y(layer.at[1]))})">${mark('diamond', 0, 0, 7, layer.colour, false)}</g>`;
-    case 'band': {
-      const [from, to] = [x(layer.from), x(layer.to)];
-      return `<rect x="${at(Math.min(from, to))}" y="${frame.top}" width="${at(Math.abs(to - from))}" height="${bottom - frame.top}" fill="${layer.fill}"/>`;
-    }
-    case 'rule': {
-      const place = at(x(layer.at));
-      const dash = layer.dash ? ` stroke-dasharray="${layer.dash}"` : '';
-      const label = layer.text ? `<text x="${at(Number(place) + 4)}" y="${frame.top + 14 + 14 * (layer.row ?? 0)}" fill="${layer.colour}" font-size="12">${escapeText(layer.text)}</text>` : '';
-      return `<line x1="${place}" x2="${place}" y1="${frame.top}" y2="${bottom}" stroke="${layer.colour}" stroke-width="1.2"${dash}/>${label}`;
-    }
-    case 'text':
-      return `<text x="${at(x(layer.x))}" y="${at(y(layer.y))}" fill="${layer.colour}" font-size="12" text-anchor="middle" paint-order="stroke" stroke-width="3">${escapeText(layer.text)}</text>`;
+      return `<g class="moving" transform="translate(${at(x(layer.at[0]))} ${at(y(layer.at[1]))})">${mark('diamond', 0, 0, 6, layer.colour)}</g>`;
+    case 'rule':
+      return `<line x1="${at(x(layer.at))}" x2="${at(x(layer.at))}" y1="${frame.top}" y2="${bottom}" stroke="${layer.colour}" stroke-width="1.2"/>`;
   }
 }
 
@@ -170,27 +186,36 @@ function axesText(plot: Plot, x: Scale, y: Scale, width: number, bottom: number,
   return text;
 }
 
+/** The layers of the legend: the first of each name. */
+const namedLayers = (layers: Layer[]): Layer[] =>
+  layers.filter((layer, i) => 'name' in layer && layer.name && layers.findIndex((other) => 'name' in other && other.name === layer.name) === i);
+
+function sampleOf(layer: Layer, right: number, middle: number, theme: Theme): string {
+  const [from, to] = [right, right + 22];
+  if (layer.kind === 'area') return `<rect x="${from}" y="${middle - 6}" width="22" height="12" fill="${layer.colour}" stroke="${theme.faint}" stroke-width="0.5"/>`;
+  if (layer.kind === 'hatching') return `<path d="M${from} ${middle + 6}l6-12m2 12l6-12m2 12l6-12" ${strokeOf(layer)}/>`;
+  if (layer.kind === 'marks') return mark(layer.mark ?? 'disc', from + 11, middle, radius(layer.size), layer.colour);
+  if (layer.kind === 'moving') return mark('diamond', from + 11, middle, 5, layer.colour);
+  return `<path d="M${from} ${middle}H${to}" ${strokeOf(layer)}/>`;
+}
+
 /** The entries in lines, and the height that they take. */
-function legendText(entries: LegendEntry[], top: number, width: number, theme: Theme): { text: string; height: number } {
+function legendText(layers: Layer[], top: number, width: number, theme: Theme): { text: string; height: number } {
   const line = 20;
   let text = '';
   let right = frame.left;
   let down = top;
-  for (const entry of entries) {
-    const length = 30 + entry.name.length * letter + 16;
+  for (const layer of layers) {
+    const name = 'name' in layer ? (layer.name ?? '') : '';
+    const length = 30 + name.length * letter + 16;
     if (right > frame.left && right + length > width) {
       right = frame.left;
       down += line;
     }
-    const middle = down - 4;
-    if (entry.mark === 'area') text += `<rect x="${right}" y="${middle - 6}" width="22" height="12" fill="${entry.colour}"/>`;
-    else if (entry.mark === 'hatched') text += `<path d="M${right} ${middle + 6}v-12h22v12zl11 -12m0 12l11 -12" fill="none" stroke="${entry.colour}" stroke-width="0.8"/>`;
-    else if (entry.mark) text += mark(entry.mark === 'open' ? 'circle' : entry.mark, right + 11, middle, 4, entry.colour, entry.mark === 'open');
-    else text += `<line x1="${right}" x2="${right + 22}" y1="${middle}" y2="${middle}" stroke="${entry.colour}" stroke-width="${entry.width ?? 2.4}"${entry.dash ? ` stroke-dasharray="${entry.dash}"` : ''}/>`;
-    text += `<text x="${right + 28}" y="${down}" fill="${theme.ink}" font-size="12.5">${escapeText(entry.name)}</text>`;
+    text += `${sampleOf(layer, right, down - 4, theme)}<text x="${right + 28}" y="${down}" fill="${theme.ink}" font-size="12.5">${escapeText(name)}</text>`;
     right += length;
   }
-  return { text, height: entries.length > 0 ? down - top + line : 0 };
+  return { text, height: layers.length > 0 ? down - top + line : 0 };
 }
 
 let clips = 0;
@@ -214,20 +239,21 @@ function layout(plot: Plot, place: number | undefined): { width: number; height:
 /** Moves the mark of a picture. */
 export function moveMark(picture: Element, plot: Plot, to: [number, number]): void {
   const { x, y } = layout(plot, picture.querySelector('svg')?.viewBox.baseVal.width);
-  picture.querySelector('.moving')?.setAttribute('transform', `translate(${at(x(to[0]))} ${at(y(to[1]))})`);
+  const up = plot.y.logarithmic ? Math.max(to[1], plot.y.low) : to[1];
+  picture.querySelector('.moving')?.setAttribute('transform', `translate(${at(x(to[0]))} ${at(y(up))})`);
 }
 
 /** The picture as SVG. */
 export function draw(plot: Plot, theme: Theme, size: Size = {}): string {
   const { width, height, bottom, x, y } = layout(plot, size.width);
   const heading = size.isTitled ? (plot.subtitle ? 50 : 30) : 0;
-  const legend = legendText(plot.legend, height + 6, width, theme);
+  const legend = legendText(namedLayers(plot.layers), height + 6, width, theme);
   const total = height + legend.height + heading;
   const clip = `clip${++clips}`;
-  const text = (layers: Layer[]): string =>
-    layers
-      .map((layer) => layerText(layer, x, y, bottom)).join('')
-      .replaceAll('paint-order="stroke"', `paint-order="stroke" stroke="${theme.paper}"`);
+  const text = (layers: Layer[]): string => layers.map((layer) => layerText(layer, x, y, bottom)).join('');
+  const words = (plot.texts ?? [])
+    .map((one) => `<text x="${at(x(one.x))}" y="${at(y(one.y) + 4)}" fill="${one.colour}" font-size="12" text-anchor="middle" paint-order="stroke" stroke="${theme.paper}" stroke-width="3">${escapeText(one.text)}</text>`)
+    .join('');
   // Marks at the end of an axis are drawn whole, others outside not at all.
   const isMark = (layer: Layer): boolean => layer.kind === 'marks' || layer.kind === 'moving';
   const isApart = (layer: Layer): boolean => (size.isMarkApart ?? false) && layer.kind === 'moving';
@@ -242,7 +268,7 @@ export function draw(plot: Plot, theme: Theme, size: Size = {}): string {
     `<rect width="${width}" height="${total}" fill="${theme.paper}"/>${title}` +
     `<g transform="translate(0 ${heading})"><clipPath id="${clip}">${rectangle(0)}</clipPath><clipPath id="${clip}m">${rectangle(7)}</clipPath>` +
     axesText(plot, x, y, width, bottom, theme) +
-    `<g clip-path="url(#${clip})">${text(plot.layers.filter((layer) => !isMark(layer)))}</g>` +
+    `<g clip-path="url(#${clip})">${text(plot.layers.filter((layer) => !isMark(layer)))}${words}</g>` +
     `<rect x="${frame.left}" y="${frame.top}" width="${width - frame.left - frame.right}" height="${bottom - frame.top}" fill="none" stroke="${theme.faint}"/>` +
     `<g clip-path="url(#${clip}m)">${text(plot.layers.filter((layer) => isMark(layer) && !isApart(layer)))}</g>` +
     `${legend.text}</g></svg>` +

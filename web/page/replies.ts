@@ -44,41 +44,27 @@ export interface DriveReply {
   is_searched: boolean;
 }
 
-/** One motion: columns of all its points, and its pieces between events. */
+/** One motion: columns of all its points. */
 export interface MotionCurve {
   name: string;
-  name_of_motor: string;
-  role: 'subject' | 'background' | 'unstable' | 'to rest' | 'to hunting' | 'running away' | 'not known';
-  is_cycle: boolean;
-  /** Why the motion is not drawn. */
+  /** Why it is not drawn. */
   reason?: string;
-  columns?: Record<'time' | 'load' | 'load_speed' | 'motor' | 'motor_speed' | 'torque' | 'reference', Column> & {
+  columns?: Record<'time' | 'load' | 'motor' | 'torque' | 'reference', Column> & {
     encoder?: Column;
   };
-  /** Number of points, faces apart, a bounce, ends with an impact. */
-  pieces?: [number, boolean, boolean, boolean][];
   /** Time, what happened, the mode after it. */
   events?: [number, string, string][];
 }
 
 export interface MotionPicture {
-  title: string;
   subtitle: string;
-  numbers: string;
   unit: string;
-  /** 1/ω_n for a normal form without a natural frequency; so the next two. */
+  /** 1/ω_n for a normal form without a natural frequency; so the next. */
   time_unit: string;
-  speed_unit: string;
   torque_unit: string;
   gap: number;
   torque_limit: number | null;
   motions: MotionCurve[];
-  window: null | {
-    positions: [number, number];
-    speeds: [number, number];
-    is_of_motor: boolean;
-    borders: Column[];
-  };
 }
 
 /** The output of `gearlash limit-cycle --format json`, as far as the page reads it. */
@@ -104,7 +90,9 @@ export interface AnswerReply {
   unit: string;
   unit_in_si: number;
   response?: MotionPicture;
-  phase?: MotionPicture;
+  /** The cycles. */
+  cycles?: MotionPicture;
+  phase?: PlotReply | null;
 }
 
 interface AxisFacts {
@@ -114,42 +102,45 @@ interface AxisFacts {
   unit_in_si: number;
 }
 
-export interface ChartAxis {
+interface LayerReply {
+  kind: 'line' | 'area' | 'marks' | 'hatching';
+  name: string;
+  colour: string;
+  width: number;
+  dashes: string;
+  mark: string;
+  size: number;
+  points: Column;
+}
+
+interface AxisReply {
   label: string;
   logarithmic: boolean;
-  low: number | null;
-  high: number | null;
+  low: number;
+  high: number;
   tics: [string, number][];
 }
 
-export interface MapReply {
+interface PanelReply {
   title: string;
-  subtitle: string;
-  x: ChartAxis;
-  y: ChartAxis;
-  regions: { meaning: string; colour: string; outlines: Column[] }[];
-  contours: { level: number; curves: Column[] }[];
-  boundary: Column[];
-  hatching: Column[];
-  inner_boundary: Column[];
-  inner_hatching: Column[];
-  boundary_meaning: string;
-  hatching_meaning: string;
-  inner_meaning: string;
-  axes: { x: AxisFacts; y: AxisFacts };
-  is_complete: boolean;
+  x: AxisReply;
+  y: AxisReply;
+  layers: LayerReply[];
+  texts: { x: number; y: number; text: string; colour: string }[];
 }
 
-export interface ChartReply {
-  x: AxisFacts;
-  low: number;
-  high: number;
-  y_label: string;
-  branches: { stability: string; line: Column }[];
-  irregular: Column;
-  borders: { at: number; word: string }[];
-  rests: [number, number][];
-  searched: number;
+/** A picture as the core decides it. */
+export interface PlotReply {
+  title: string;
+  subtitles: string[];
+  /** Side by side; the panels of one below each other. */
+  columns: PanelReply[][];
+}
+
+/** A map over two axes, or branches of cycles over one. */
+export interface MapReply {
+  plot: PlotReply;
+  axes: { x: AxisFacts; y?: AxisFacts };
   is_complete: boolean;
 }
 
@@ -169,17 +160,6 @@ export interface MarginsReply {
     choices: string[];
   }[];
   is_complete: boolean;
-}
-
-export interface FigureReply {
-  title: string;
-  subtitle: string;
-  x: ChartAxis;
-  y: ChartAxis;
-  curves: { name: string; line: Column; marks: Column; ends: Column }[];
-  line_meaning: string;
-  mark_meaning: string;
-  end_meaning: string;
 }
 
 /** A drive as the page holds it. */

@@ -4,9 +4,9 @@ import type { Card, Cards } from './cards';
 import { type Lane, Overtaken, patiently } from './core';
 import { titleOf } from './inputs';
 import { escapeText, inWords, typed } from './numbers';
-import { branchChart, contourMap } from './pictures';
+import { plotOf } from './pictures';
 import type { Plot, Theme } from './plot';
-import type { AnswerReply, ChartReply, DriveReply, DriveText, MapReply, MarginsReply, Parameter, Replied } from './replies';
+import type { AnswerReply, DriveReply, DriveText, MapReply, MarginsReply, Parameter, Replied } from './replies';
 import { quoted, setOptions } from './state';
 import { wordsOf } from './words';
 
@@ -26,8 +26,6 @@ const pointsOf = { map: { closed: 41, searched: 7 }, chart: { closed: 61, search
 const seconds = 120;
 
 const byId = (id: string): HTMLElement => document.getElementById(id)!;
-
-const isMap = (reply: MapReply | ChartReply): reply is MapReply => 'axes' in reply;
 
 /** Fills a list with the parameters by section, after `none`. */
 function listPaths(list: HTMLSelectElement, paths: string[], chosen: string, none?: string): void {
@@ -63,7 +61,7 @@ export function listAxes(facts: DriveReply, chosen: { x: string; y: string }): {
 }
 
 export class Studies {
-  private map: { replied: Replied<MapReply | ChartReply>; key: string } | null = null;
+  private map: { replied: Replied<MapReply>; key: string } | null = null;
   /** The map as it is on the page; its mark can be moved. */
   private drawn: { map: object; plot: Plot } | null = null;
   private job = 0;
@@ -124,7 +122,7 @@ export class Studies {
     words.textContent = 'Computing …';
     this.cards.fade('map');
     try {
-      const replied = await patiently<MapReply | ChartReply>(this.lane, { ...request, drive: present, seconds });
+      const replied = await patiently<MapReply>(this.lane, { ...request, drive: present, seconds });
       if (job !== this.job) return;
       this.map = { replied, key };
       words.innerHTML = this.commandText(request, drive, replied.reply.is_complete);
@@ -168,24 +166,19 @@ export class Studies {
     const answer = this.page.answer();
     if (!this.map || !answer) return;
     const { reply, numbers } = this.map.replied;
-    if (isMap(reply)) {
-      const x = this.here(reply.axes.x.path, reply.axes.x.unit_in_si);
-      const y = this.here(reply.axes.y.path, reply.axes.y.unit_in_si);
-      const place: [number, number] | null = x !== null && y !== null ? [x, y] : null;
-      const card: Card = { plot: (theme) => contourMap(reply, numbers, theme, place) };
-      if (this.drawn?.map === this.map && place) {
-        this.cards.move('map', card, this.drawn.plot, place);
-        return;
-      }
-      const plot = card.plot(this.page.theme());
-      this.drawn = place ? { map: this.map, plot } : null;
-      this.cards.put('map', card, this.page.theme());
+    const on = (axis: { path: string; unit_in_si: number }): number | null => this.here(axis.path, axis.unit_in_si);
+    const cycle = answer.answer.cycles.find((one) => one.stability !== 'unstable');
+    const x = on(reply.axes.x);
+    const y = reply.axes.y ? on(reply.axes.y) : (cycle?.amplitude ?? 0) / answer.unit_in_si;
+    const place: [number, number] | null = x !== null && y !== null ? [x, y] : null;
+    const card: Card = { plot: (theme) => plotOf(reply.plot, numbers, theme, place) };
+    if (this.drawn?.map === this.map && place) {
+      this.cards.move('map', card, this.drawn.plot, place);
       return;
     }
-    const x = this.here(reply.x.path, reply.x.unit_in_si);
-    const cycle = answer.answer.cycles.find((one) => one.stability !== 'unstable');
-    const place: [number, number] | null = x === null ? null : [x, (cycle?.amplitude ?? 0) / answer.unit_in_si];
-    this.cards.put('map', { plot: (theme) => branchChart(reply, numbers, theme, place) }, this.page.theme());
+    const plot = card.plot(this.page.theme());
+    this.drawn = place ? { map: this.map, plot } : null;
+    this.cards.put('map', card, this.page.theme());
   }
 
   // ---- changes ----------------------------------------------------------------------------------

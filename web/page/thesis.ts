@@ -1,9 +1,9 @@
 // The figures of the thesis: points of the program of 1960 over the exact curves.
 import type { Cards } from './cards';
 import { type Lane, Overtaken } from './core';
-import { figurePlot } from './pictures';
+import { plotOf } from './pictures';
 import type { Theme } from './plot';
-import type { FigureReply } from './replies';
+import type { PlotReply } from './replies';
 import { wordsOf } from './words';
 
 const byId = (id: string): HTMLElement => document.getElementById(id)!;
@@ -26,10 +26,10 @@ export class Thesis {
     (byId('figure') as HTMLSelectElement).value = String(figure);
     this.cards.fade('figure');
     try {
-      const { reply, numbers } = await this.lane.ask<FigureReply>({ ask: 'thesis', figure });
+      const { reply, numbers } = await this.lane.ask<PlotReply>({ ask: 'thesis', figure });
       byId('figure-title').textContent = reply.title;
-      byId('figure-words').textContent = reply.subtitle;
-      this.cards.put('figure', { plot: (theme) => figurePlot(reply, numbers, theme) }, this.theme());
+      byId('figure-words').textContent = reply.subtitles.join('; ');
+      this.cards.put('figure', { plot: (theme) => plotOf(reply, numbers, theme) }, this.theme());
     } catch (error) {
       if (!(error instanceof Overtaken)) this.cards.blank('figure', wordsOf(error));
     }

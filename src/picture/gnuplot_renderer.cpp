@@ -1,0 +1,351 @@
+#include "picture/gnuplot_renderer.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "output/columns.hpp"
+#include "picture/gnuplot.hpp"
+
+namespace gearlash {
+namespace {
+
+// ---- texts --------------------------------------------------------------------------------------
+
+/// The number of letters from `place` on that are a subscript: "n" after "ω_", or the letters after
+/// a single capital and "_", as in J_L and F_Total. Names such as "my_servo" have none.
+std::size_t subscript_length(const std::string& text, std::size_t place) {
+  const auto is_letter = [&](std::size_t i) {
+    return i < text.size() && std::isalpha(static_cast<unsigned char>(text[i])) != 0;
+  };
+  if (place < 2 || text[place - 1] != '_') return 0;
+  const bool after_omega = text.substr(0, place - 1).ends_with("ω");
+  const bool after_capital = std::isupper(static_cast<unsigned char>(text[place - 2])) != 0 &&
+                             (place == 2 || (text[place - 3] != '_' && !is_letter(place - 3)));
+  if (!after_omega && !after_capital) return 0;
+  std::size_t length = 0;
+  while (is_letter(place + length)) ++length;
+  return length;
+}
+
+/// gnuplot text in single quotes, all of it in `style` if one is given. Quotes and markup in the
+/// text are escaped; only subscripts such as those of ω_n and J_L are set low.
+std::string quoted(const std::string& text, const std::string& style = "") {
+  std::string safe = style.empty() ? "'" : "'{" + style + " ";
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (static_cast<unsigned char>(c) < 0x20) continue;
+    if (const std::size_t length = subscript_length(text, i + 1); c == '_' && length > 0) {
+      safe += "_{" + text.substr(i + 1, length) + "}";
+      i += length;
+      continue;
+    }
+    if (std::string_view("\\_^{}@&~").find(c) != std::string_view::npos) safe += '\\';
+    safe += c;
+    if (c == '\'') safe += c;
+  }
+  return safe + (style.empty() ? "'" : "}'");
+}
+
+/// The text in one line, or in two if it has more than `width` columns, broken after a semicolon, a
+/// comma or a blank.
+std::vector<std::string> in_lines(const std::string& text, std::size_t width) {
+  if (width_in_columns(text) <= width) return {text};
+  std::size_t place = text.rfind("; ", text.size() * 4 / 5);
+  if (place == std::string::npos || place < text.size() / 4) {
+    place = text.rfind(", ", text.size() * 3 / 5);
+  }
+  if (place != std::string::npos) return {text.substr(0, place + 1), text.substr(place + 2)};
+  place = text.rfind(' ', text.size() / 2);
+  if (place == std::string::npos) return {text};
+  return {text.substr(0, place), text.substr(place + 1)};
+}
+
+/// In letters.
+std::size_t longest(const std::vector<Tic>& tics) {
+  std::size_t length = 0;
+  for (const Tic& tic : tics) length = std::max(length, width_in_columns(tic.text));
+  return length;
+}
+
+// ---- the page -----------------------------------------------------------------------------------
+
+// Pixels of a picture 900 wide.
+constexpr double page_width = 900.0;
+constexpr double title_line = 24.0;
+constexpr double subtitle_line = 22.0;
+constexpr double between_panels = 12.0;
+constexpr double panel_title = 26.0;
+constexpr double axis_room = 72.0;
+constexpr double legend_line = 25.0;
+constexpr double letter = 8.6;
+
+/// A panel with its place on the page.
+struct PlacedPanel {
+  const Panel& panel;
+  DrawnAxis x;
+  DrawnAxis y;
+  double left;
+  double right;
+  double top;  ///< from the page's top
+  bool is_last;
+
+  double bottom() const { return top + panel.height; }
+  /// Long names below the axis are slanted.
+  bool is_slanted() const {
+    std::size_t letters = 0;
+    for (const Tic& tic : x.tics) letters += width_in_columns(tic.text);
+    return static_cast<double>(letters) * letter > right - left;
+  }
+};
+
+struct Page {
+  double height = 0.0;
+  std::vector<std::string> titles = {};
+  std::vector<std::string> subtitles = {};
+  std::vector<PlacedPanel> panels = {};
+  std::vector<const Layer*> legend = {};  ///< one layer for each name
+  int legend_columns = 1;
+};
+
+void place_column(const PlotColumn& column, double from, double to, double top, Page& page) {
+  std::size_t names = 0;
+  for (const Panel& panel : column) names = std::max(names, longest(drawn_y(panel).tics));
+  constexpr double shortest_names = 95.0;
+  const double left = from + std::max(shortest_names, 50.0 + letter * static_cast<double>(names));
+  const double right = to - 0.03 * (to - from) - 1.0;
+  for (const Panel& panel : column) {
+    if (!panel.title.empty() && &panel != &column.front()) top += panel_title;
+    page.panels.push_back({panel, drawn_x(panel, right - left), drawn_y(panel), left, right, top,
+                           &panel == &column.back()});
+    top += panel.height + between_panels;
+  }
+  const PlacedPanel& last = page.panels.back();
+  const double slanted =
+      last.is_slanted() ? 0.6 * letter * static_cast<double>(longest(last.x.tics)) : 0.0;
+  page.height = std::max(page.height, last.bottom() + axis_room + slanted);
+}
+
+void place_legend(const Plot& plot, Page& page) {
+  std::size_t length = 1;
+  for (const PlotColumn& column : plot.columns) {
+    for (const Panel& panel : column) {
+      for (const Layer& layer : panel.layers) {
+        const bool is_named =
+            std::any_of(page.legend.begin(), page.legend.end(),
+                        [&](const Layer* other) { return other->name == layer.name; });
+        if (layer.name.empty() || is_named) continue;
+        page.legend.push_back(&layer);
+        length = std::max(length, width_in_columns(layer.name));
+      }
+    }
+  }
+  constexpr double sample = 6.0;  // letters
+  constexpr double line = 108.0;
+  page.legend_columns =
+      std::clamp(static_cast<int>(line / (sample + static_cast<double>(length))), 1, 4);
+  const auto entries = static_cast<double>(page.legend.size());
+  page.height += 10.0 + legend_line * std::ceil(entries / page.legend_columns);
+}
+
+Page page_of(const Plot& plot) {
+  constexpr std::size_t letters_of_title = 84;
+  constexpr std::size_t letters_of_subtitle = 104;
+  Page page{.titles = in_lines(plot.title, letters_of_title)};
+  for (const std::string& subtitle : plot.subtitles) {
+    for (std::string& line : in_lines(subtitle, letters_of_subtitle)) {
+      page.subtitles.push_back(std::move(line));
+    }
+  }
+  const bool has_titles =
+      std::any_of(plot.columns.begin(), plot.columns.end(),
+                  [](const PlotColumn& column) { return !column.front().title.empty(); });
+  const double top = 20.0 + title_line * static_cast<double>(page.titles.size()) +
+                     subtitle_line * static_cast<double>(page.subtitles.size()) +
+                     (has_titles ? panel_title : 0.0);
+  const double width = page_width / static_cast<double>(plot.columns.size());
+  for (std::size_t i = 0; i < plot.columns.size(); ++i) {
+    place_column(plot.columns[i], width * static_cast<double>(i),
+                 width * static_cast<double>(i + 1), top, page);
+  }
+  place_legend(plot, page);
+  return page;
+}
+
+// ---- commands -----------------------------------------------------------------------------------
+
+double font_size(PictureFormat format) {
+  return format == PictureFormat::svg ? 15.0 : format == PictureFormat::png ? 25.0 : 8.8;
+}
+
+std::string terminal(PictureFormat format, double height) {
+  const std::string font = fmt::format("enhanced font 'sans-serif,{}'", font_size(format));
+  switch (format) {
+    case PictureFormat::svg:
+      return fmt::format(
+          "set terminal svg {} size 900,{:.0f} background rgb 'white' linewidth 1.2\n", font,
+          height);
+    case PictureFormat::png:
+      return fmt::format(
+          "set terminal pngcairo {} size 1800,{:.0f} linewidth 2.4 dashlength 1.4 pointscale 2\n",
+          font, 2.0 * height);
+    case PictureFormat::pdf:
+      return fmt::format("set terminal pdfcairo {} size 18cm,{:.4g}cm linewidth 1.2\n", font,
+                         height / 50.0);
+  }
+  return "";
+}
+
+std::string heading(const Page& page) {
+  const double middle = 0.5 * (page.panels.front().left + page.panels.back().right) / page_width;
+  std::string labels;
+  double from_top = 22.0;
+  const auto add = [&](const std::string& text, const char* style, double line) {
+    labels += fmt::format("set label {} at screen {:.4f}, screen {:.4f} center\n",
+                          quoted(text, style), middle, 1.0 - from_top / page.height);
+    from_top += line;
+  };
+  for (const std::string& title : page.titles) add(title, "/:Bold", title_line);
+  for (const std::string& subtitle : page.subtitles) add(subtitle, "/*0.87", subtitle_line);
+  return labels;
+}
+
+/// `name` is 'x' or 'y'.
+std::string axis_commands(char name, const PlotAxis& axis, const DrawnAxis& drawn, bool is_numbered,
+                          bool is_slanted) {
+  std::vector<std::string> tics;
+  for (const Tic& tic : drawn.tics) {
+    tics.push_back(fmt::format("{} {:.9g}{}", quoted(is_numbered ? tic.text : ""), tic.at,
+                               tic.text.empty() ? " 1" : ""));
+  }
+  const std::string grid =
+      fmt::format("set grid {}tics linewidth 0.5 linecolor rgb '#c4c4c4'\n", name);
+  return fmt::format(
+      "set {0}range [{1:.9g}:{2:.9g}]\n{3}set logscale {0}\nset {0}tics {4} ({5})\n{6}", name,
+      drawn.ends.low, drawn.ends.high, axis.logarithmic ? "" : "un",
+      is_slanted ? "rotate by 35 right" : "norotate", fmt::join(tics, ", "),
+      axis.has_grid ? grid : "");
+}
+
+/// The names of the axes: gnuplot leaves out one of y for which it sees no room.
+std::string axis_labels(const PlacedPanel& placed) {
+  constexpr double from_numbers = 36.0;
+  const double left =
+      placed.left - from_numbers - letter * static_cast<double>(longest(placed.y.tics));
+  return fmt::format(
+      "set xlabel {}\nset label {} at screen {:.4f}, graph 0.5 center rotate by 90\n",
+      quoted(placed.is_last ? placed.x.label : ""), quoted(placed.y.label), left / page_width);
+}
+
+/// How gnuplot draws the layer, from its colour on.
+std::string style_of(const Layer& layer) {
+  switch (layer.kind) {
+    case LayerKind::line:
+      return fmt::format("lines linewidth {} dashtype {} linecolor rgb '{}'", layer.width,
+                         layer.dashes.empty() ? "1" : "(" + layer.dashes + ")", layer.colour);
+    case LayerKind::area:
+      return fmt::format("filledcurves closed fillstyle solid noborder linecolor rgb '{}'",
+                         layer.colour);
+    case LayerKind::marks:
+      return fmt::format("points pointtype {} pointsize {} linewidth 1.4 linecolor rgb '{}'",
+                         static_cast<int>(layer.mark) + 1, layer.size, layer.colour);
+    case LayerKind::hatching:
+      return fmt::format("lines linewidth 0.6 linecolor rgb '{}'", layer.colour);
+  }
+  return "";
+}
+
+std::string legend_entry(const Layer& layer) {
+  std::string style = style_of(layer);
+  if (layer.kind == LayerKind::area) {
+    style = fmt::format("boxes fillstyle solid border linecolor rgb '#a0a0a0' fillcolor rgb '{}'",
+                        layer.colour);
+  } else if (layer.kind == LayerKind::hatching) {
+    style = fmt::format("boxes fillstyle pattern 5 noborder linecolor rgb '{}'", layer.colour);
+  }
+  return "keyentry with " + style + " title " + quoted(layer.name);
+}
+
+std::string plot_command(const std::vector<std::string>& layers) {
+  return fmt::format("plot 1/0 notitle{}{}\n", layers.empty() ? "" : ", \\\n     ",
+                     fmt::join(layers, ", \\\n     "));
+}
+
+std::string data_of(const Layer& layer, const std::string& name) {
+  std::string rows;
+  for (const MapPoint& point : layer.points) {
+    const bool is_drawn = std::isfinite(point.x) && std::isfinite(point.y);
+    rows += is_drawn ? fmt::format("{:.7g} {:.7g}\n", point.x, point.y) : "\n";
+  }
+  return fmt::format("${} << EOD\n{}EOD\n", name, rows);
+}
+
+std::string text_command(const PlotText& text) {
+  return fmt::format(
+      "set label {} at {:.7g},{:.7g} center rotate by {:.1f} front textcolor rgb '{}'\n",
+      quoted(text.text, fmt::format("/{}*{}", text.is_bold ? ":Bold" : "", text.size)), text.at.x,
+      text.at.y, text.slope, text.colour);
+}
+
+std::string panel_commands(const PlacedPanel& placed, std::size_t number, double height) {
+  const Panel& panel = placed.panel;
+  std::string script = fmt::format(
+                           "unset grid\n"
+                           "set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\n"
+                           "set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n",
+                           placed.left / page_width, placed.right / page_width,
+                           1.0 - placed.top / height, 1.0 - placed.bottom() / height) +
+                       axis_commands('x', panel.x, placed.x, placed.is_last, placed.is_slanted()) +
+                       axis_commands('y', panel.y, placed.y, true, false) + axis_labels(placed);
+  if (!panel.title.empty()) {
+    script += fmt::format("set label {} at graph 0.5, graph 1 center offset 0,0.7\n",
+                          quoted(panel.title, "/*0.87"));
+  }
+  for (const PlotText& text : panel.texts) script += text_command(text);
+  std::vector<std::string> layers;
+  for (std::size_t i = 0; i < panel.layers.size(); ++i) {
+    const Layer& layer = panel.layers[i];
+    if (std::none_of(layer.points.begin(), layer.points.end(),
+                     [](const MapPoint& point) { return std::isfinite(point.x + point.y); })) {
+      continue;
+    }
+    const std::string name = fmt::format("layer{}_{}", number, i);
+    script += data_of(layer, name);
+    layers.push_back(fmt::format("${} using 1:2 with {} notitle", name, style_of(layer)));
+  }
+  return script + plot_command(layers) + "unset label\n";
+}
+
+std::string legend_commands(const Page& page, PictureFormat format) {
+  std::vector<std::string> entries;
+  for (const Layer* layer : page.legend) entries.push_back(legend_entry(*layer));
+  return fmt::format(
+             "set lmargin at screen 0.02\nset rmargin at screen 0.98\nunset border\nunset tics\n"
+             "unset grid\nunset xlabel\nunset logscale\n"
+             "set key at screen 0.53, screen 0.004 bottom center horizontal Left reverse samplen 3 "
+             "spacing 1.2 maxcols {} font ',{:.3g}'\n",
+             page.legend_columns, 0.87 * font_size(format)) +
+         plot_command(entries);
+}
+
+}  // namespace
+
+std::string draw(const Plot& plot, PictureFormat format) {
+  const Page page = page_of(plot);
+  std::string script = terminal(format, page.height) +
+                       "set encoding utf8\nset multiplot\nset tics nomirror out\n"
+                       "set border linewidth 0.8\nset clip two\nunset key\n" +
+                       heading(page);
+  for (std::size_t i = 0; i < page.panels.size(); ++i) {
+    script += panel_commands(page.panels[i], i, page.height);
+  }
+  if (!page.legend.empty()) script += legend_commands(page, format);
+  return run_gnuplot(script + "unset multiplot\n", plot.title);
+}
+
+}  // namespace gearlash
