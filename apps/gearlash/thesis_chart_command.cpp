@@ -247,7 +247,7 @@ void add_thesis_extension(Command& thesis, Action& action) {
                             "\n" + wrapped(extension.lesson));
                const ExitStatus status = end_work(work, ExitStatus::done, "the chart is not drawn");
                if (!work.is_stopped()) {
-                 extras.make([&] { write_file(file, draw_line_chart(extension.chart, format)); });
+                 extras.make([&] { write_file(file, draw(extension.plot, format)); });
                }
                return extras.status(status);
              });
