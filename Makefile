@@ -197,7 +197,7 @@ docs: tool  ## write the pages of docs as HTML: build/docs/html/index.html
 	@$(INSTALL) docs python
 	@cmake --preset release -DGEARLASH_BUILD_PYTHON=ON
 	@$(BUILD) release --target list_parameters --target gearlash_python_package
-	docs/make/build $(TOOL) $(RELEASE)/docs/make/list_parameters $(RELEASE)/python
+	docs/make/build $(TOOL) $(RELEASE)/docs/make/list_parameters $(RELEASE)/python $(RELEASE)/schemas
 
 docs-check: docs  ## dead links, spelling and long sentences in the pages
 	/usr/bin/python3 docs/make/check_pages.py build/docs/source/docs/reference/generated
@@ -231,7 +231,7 @@ includes: single  ## does every header and every .cpp file compile by itself?
 single:
 	@$(INSTALL) test
 	cmake --preset single
-	$(BUILD) single --target gearlash_unit_table --target gearlash_python_records
+	$(BUILD) single --target gearlash_unit_table --target gearlash_records --target gearlash_python_records
 
 # Packed files have the date of the last commit, or of the changelog without git, so that the same
 # sources give the same bytes.

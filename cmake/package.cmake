@@ -26,6 +26,8 @@ install(DIRECTORY docs DESTINATION "${share}/doc/gearlash" COMPONENT tool
 # The page of `gearlash explore`, which `make web` makes.
 install(FILES "${PROJECT_SOURCE_DIR}/build/web/site/explorer.html" DESTINATION "${share}/gearlash"
         COMPONENT tool)
+# The schemas of its JSON.
+install(DIRECTORY "${PROJECT_BINARY_DIR}/schemas" DESTINATION "${share}/gearlash" COMPONENT tool)
 file(GLOB drives CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/examples/*.toml")
 install(FILES ${drives} DESTINATION "${share}/doc/gearlash/examples" COMPONENT tool)
 set(components tool/gearlash development/libgearlash-dev)

@@ -18,7 +18,6 @@ version = release = re.search(r"VERSION ([0-9.]+)\n", cmake).group(1)
 extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
 root_doc = "index"
-exclude_patterns = ["schemas"]
 
 myst_heading_anchors = 4
 myst_enable_extensions = []

@@ -30,7 +30,7 @@ constexpr char design_examples[] =
     "  gearlash design examples/elinco-fd162.toml --target \"amplitude <= 1 deg and frequency >= 3 "
     "Hz\"\n"
     "  gearlash design examples/elinco-fd162.toml --target \"amplitude <= 30 arcmin\" \\\n"
-    "      --parameters gearbox.backlash,gearbox.ratio --format json | jq .answers[0].nearest\n"
+    "      --parameters gearbox.backlash,gearbox.ratio --format json | jq .design.parameters[0].values.nearest\n"
     "  gearlash design examples/elinco-fd162.toml --target no-hunting \\\n"
     "      --vary load.friction,controller.proportional --plot region=region.svg\n"
     "  gearlash design examples/first-servo.toml --target \"no-hunting and bandwidth >= 2 Hz\" \\\n"

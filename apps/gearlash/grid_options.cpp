@@ -169,7 +169,7 @@ void write_table(const GridTask& task, const GridTable& table, const RowCount& c
                  OutputFile& output) {
   const auto sink = [&](std::string_view text) { output.write(text); };
   if (ending_of(task.table) == ".csv") return write_grid_csv(table, sink);
-  if (ending_of(task.table) == ".json") return write_grid_json(table, task.verb, sink);
+  if (ending_of(task.table) == ".json") return write_grid_json(table, sink);
   GridNetcdf file = GridNetcdf::create(output.hidden_file(), output.shown_name(),
                                        {task.grid, quantities_of(task), table.provenance, ""});
   file.write({0, table.table, count});

@@ -6,17 +6,19 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "input/sweep_file.hpp"
 #include "input/text_file.hpp"
 #include "input/units.hpp"
 #include "output/file_safety.hpp"
-#include "output/json_values.hpp"
 #include "output/output_file.hpp"
 
 namespace gearlash {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 namespace fs = std::filesystem;
 

@@ -27,7 +27,7 @@ constexpr char tolerance_examples[] =
     "  gearlash tolerance examples/toleranced.toml --target \"amplitude <= 1 deg\" --yield \"95 "
     "%\"\n"
     "  gearlash tolerance examples/toleranced.toml --samples 10000000 --format json | jq "
-    ".hunting\n"
+    ".study.hunting\n"
     "  gearlash tolerance examples/toleranced.toml --error \"0.1 %\"\n"
     "  gearlash tolerance examples/toleranced-joint.toml --target \"motor-amplitude <= 0.3 deg\"\n";
 

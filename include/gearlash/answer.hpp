@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "gearlash/bounds.hpp"
@@ -61,7 +63,7 @@ struct EnergyLost {
   double load_friction = 0.0;   ///< J, in the load's friction
   double impacts = 0.0;         ///< J
 
-  [[nodiscard]] double total() const { return motor_friction + load_friction + impacts; }
+  [[nodiscard]] double total() const { return motor_friction + load_friction + impacts; }  ///< J
 };
 
 struct Cycle {
@@ -147,6 +149,11 @@ struct IrregularMotion {
   std::optional<double> watched{};   ///< s, duration of the measurement
   std::size_t starts = 0;            ///< of a search that led here
   std::optional<double> encoder_steps{};  ///< as of a cycle
+
+  /// A sampled drive whose encoder reads the same steps again and again has no derivative by which
+  /// Newton's method could close a cycle.
+  [[nodiscard]] bool repeats() const;  ///< its swings do: to 0.1 %, after some of them, or, behind
+                                       ///< an encoder, within a step of it at a steady pace
 };
 
 /// Hunting of at most this many encoder steps, peak to peak, may be quantization.
@@ -344,6 +351,9 @@ struct Answer {
   /// In SI. Empty if it does not exist or is not known. Amplitudes are 0 if the drive comes to
   /// rest. A choice gives its number.
   [[nodiscard]] std::optional<double> value(Quantity quantity) const;
+  /// value() of each that is a number, by its name.
+  [[nodiscard]] std::vector<std::pair<std::string_view, std::optional<double>>> values()
+      const;  ///< of every quantity, by its name
 };
 
 /// The enumerator's name with spaces: "cannot hunt", "hunts if disturbed", …

@@ -31,6 +31,9 @@ struct Jacobian {
   /// ∂ ln quantity/∂ ln parameter: per cent per one per cent; 0 where the parameter is 0. Throws
   /// std::out_of_range.
   [[nodiscard]] std::optional<double> elasticity(std::size_t quantity, std::size_t parameter) const;
+  /// elasticity() of each of `slopes`.
+  [[nodiscard]] std::vector<std::optional<double>> elasticities()
+      const;  ///< per cent per one per cent, in the order of `slopes`
 };
 
 /// Derivatives of the limit cycle seen in practice, the largest that is not unstable.

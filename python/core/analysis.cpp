@@ -17,8 +17,8 @@
 #include "module.hpp"
 #include "output/comparison_report.hpp"
 #include "output/describe_report.hpp"
+#include "output/records.hpp"
 #include "question/loop/describing/describing_function.hpp"
-#include "records.hpp"
 
 namespace gearlash::python {
 namespace {

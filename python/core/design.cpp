@@ -11,8 +11,8 @@
 #include "input/axis_text.hpp"
 #include "interruptible.hpp"
 #include "module.hpp"
+#include "output/records.hpp"
 #include "question/series/tolerance_study.hpp"
-#include "records.hpp"
 
 namespace gearlash::python {
 namespace {

@@ -9,7 +9,7 @@
 #include "model/parameters.hpp"
 #include "module.hpp"
 #include "output/drive_text.hpp"
-#include "records.hpp"
+#include "output/records.hpp"
 
 namespace gearlash::python {
 namespace {

@@ -8,9 +8,9 @@
 #include "interruptible.hpp"
 #include "module.hpp"
 #include "output/grid_description.hpp"
+#include "output/records.hpp"
 #include "question/axis.hpp"
 #include "question/family/family.hpp"
-#include "records.hpp"
 
 namespace gearlash::python {
 namespace {

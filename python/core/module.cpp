@@ -1,10 +1,12 @@
 // gearlash._core: the C++ library for the Python package beside it, which has the documentation.
 #include "module.hpp"
 
+#include <functional>
+
 #include "gearlash/fault.hpp"
 #include "gearlash/version.hpp"
 #include "interruptible.hpp"
-#include "records.hpp"
+#include "output/records.hpp"
 
 namespace gearlash::python {
 namespace {
@@ -12,7 +14,7 @@ namespace {
 /// {"Verdict": ("cannot hunt", …), …}
 py::dict words() {
   py::dict all;
-  for_each_enumeration([&]<class Enumeration>(const Enumeration*) {
+  records::for_each_enumeration([&]<class Enumeration>(const Enumeration*) {
     py::list list;
     for (const auto& word : Words<Enumeration>::all) {
       list.append(Words<Enumeration>::named(word.value));
@@ -25,7 +27,7 @@ py::dict words() {
 /// {"Start": Start(), …} with the defaults of C++.
 py::dict default_records() {
   py::dict all;
-  for_each_record(
+  records::for_each_record(
       [&]<class Struct>(const Struct*) { all[Record<Struct>::name] = to_python(Struct{}); });
   return all;
 }
@@ -33,12 +35,26 @@ py::dict default_records() {
 /// The record as it comes back from C++.
 py::object there_and_back(py::handle record) {
   py::object back;
-  for_each_record([&]<class Struct>(const Struct*) {
+  records::for_each_record([&]<class Struct>(const Struct*) {
     if (!back && py::isinstance(record, class_named(Record<Struct>::name))) {
       back = to_python(from_python<Struct>(record, "record"));
     }
   });
   return back;
+}
+
+/// What a record of C++ computes under that name.
+py::object computed(py::handle record, const std::string& name) {
+  py::object found;
+  records::for_each_record([&]<class Struct>(const Struct*) {
+    if (found || !py::isinstance(record, class_named(Record<Struct>::name))) return;
+    const auto value = from_python<Struct>(record, "record");
+    const auto compute = [&](const auto& member) {
+      if (member.name == name) found = to_python(std::invoke(member.place, value));
+    };
+    std::apply([&](const auto&... member) { (compute(member), ...); }, Record<Struct>::computed);
+  });
+  return found;
 }
 
 // The parameter has the type that pybind11 demands.
@@ -62,6 +78,7 @@ PYBIND11_MODULE(_core, module) {
   module.def("words", python::words);
   module.def("default_records", python::default_records);
   module.def("there_and_back", python::there_and_back, pybind11::arg("record"));
+  module.def("computed", python::computed);
   pybind11::module_::import("atexit").attr("register")(
       pybind11::cpp_function(python::stop_calls_at_exit));
   python::add_drives(module);

@@ -5,7 +5,7 @@
 #include "gearlash/motion.hpp"
 #include "interruptible.hpp"
 #include "module.hpp"
-#include "records.hpp"
+#include "output/records.hpp"
 
 namespace gearlash::python {
 namespace {

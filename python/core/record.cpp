@@ -1,6 +1,6 @@
 #include "record.hpp"
 
-#include "records.hpp"
+#include "output/records.hpp"
 
 namespace gearlash::python {
 

@@ -1,10 +1,9 @@
 // Values of C++ as values of Python, and back: structs as the dataclasses of gearlash._records, by
-// the lists of their members in the generated records.hpp.
+// the lists of their members in the generated output/records.hpp.
 #pragma once
 
 #include <pybind11/pybind11.h>
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -18,42 +17,18 @@
 #include <vector>
 
 #include "gearlash/drive.hpp"
+#include "output/record.hpp"
 
 namespace gearlash::python {
 
 namespace py = pybind11;
 
-template <class Struct, class Type>
-struct Member {
-  const char* name;
-  Type Struct::*place;
-};
-template <class Struct, class Type>
-Member(const char*, Type Struct::*) -> Member<Struct, Type>;  // clang 16 deduces no aggregate
-
-/// Specialised for every struct: its name, and the tuple of its members.
-template <class Struct>
-struct Record;
-
-template <class Enumeration>
-struct Word {
-  Enumeration value;
-  const char* text;  ///< nullptr where name_of() has it
-};
-
-/// Specialised for every enumeration: its name, all its values, and named().
-template <class Enumeration>
-struct Words;
-
-template <class Type>
-concept IsRecord = requires { Record<Type>::members; };
-template <class Type>
-concept IsWord = requires { Words<Type>::all; };
-
-template <class Type, template <class...> class Template>
-inline constexpr bool is_a = false;
-template <template <class...> class Template, class... Arguments>
-inline constexpr bool is_a<Template<Arguments...>, Template> = true;
+using records::is_a;
+using records::IsRecord;
+using records::IsWord;
+using records::Record;
+using records::Word;
+using records::Words;
 
 /// The class of gearlash._records. It lives as long as the interpreter.
 py::handle class_named(const char* name);
@@ -102,6 +77,10 @@ py::object to_python(const Type& value) {
     return value ? to_python(*value) : py::object(py::none());
   } else if constexpr (is_a<Type, std::variant>) {
     return std::visit([](const auto& held) { return to_python(held); }, value);
+  } else if constexpr (requires { value.front().second; }) {
+    py::dict names;
+    for (const auto& [name, of] : value) names[py::str(std::string(name))] = to_python(of);
+    return names;
   } else {
     static_assert(is_a<Type, std::vector>);
     py::tuple list(value.size());
@@ -125,7 +104,7 @@ Struct record_from_python(py::handle object, const char* name) {
   std::apply(
       [&](const auto&... member) {
         ((value.*(member.place) = from_python<std::decay_t<decltype(value.*(member.place))>>(
-              object.attr(member.name), member.name)),
+              object.attr(member.attribute), member.attribute)),
          ...);
       },
       Record<Struct>::members);

@@ -7,7 +7,7 @@
 #include "arrays.hpp"
 #include "interruptible.hpp"
 #include "module.hpp"
-#include "records.hpp"
+#include "output/records.hpp"
 #include "thesis/exact_curve.hpp"
 #include "thesis/figures.hpp"
 #include "thesis/float_1604.hpp"

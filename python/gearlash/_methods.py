@@ -32,26 +32,6 @@ class Record:
         return _notebook.html_of_record(self)
 
 
-class Cycle(Record):
-    period: float
-
-    @property
-    def frequency(self) -> float:
-        """1/period, Hz."""
-        return 1.0 / self.period
-
-
-class EnergyLost(Record):
-    motor_friction: float
-    load_friction: float
-    impacts: float
-
-    @property
-    def total(self) -> float:
-        """The sum, J in a period."""
-        return self.motor_friction + self.load_friction + self.impacts
-
-
 class Bounds(Record):
     low: float
     high: float

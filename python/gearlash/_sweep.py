@@ -247,7 +247,7 @@ def compare(drives: Drive | Mapping[str, Drive],
     >>> import gearlash
     >>> servo = gearlash.Drive.normal_form(0.19, 2, 0.1, 0.3)
     >>> report = gearlash.compare(servo, {"servo.damping": [0.19, 0.9]}, ["amplitude"])
-    >>> [case["limit_cycle"]["verdict"] for case in report["cases"]]
+    >>> [one["answer"]["verdict"] for one in report["drives"]]
     ['hunts', 'cannot hunt']
     """
     one = None

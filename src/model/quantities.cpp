@@ -203,4 +203,12 @@ std::optional<double> Answer::value(Quantity quantity) const {
   return entry_of(quantity).value(*this);
 }
 
+std::vector<std::pair<std::string_view, std::optional<double>>> Answer::values() const {
+  std::vector<std::pair<std::string_view, std::optional<double>>> all;
+  for (const QuantityInfo& info : quantities()) {
+    if (info.kind == QuantityKind::number) all.emplace_back(info.name, value(info.quantity));
+  }
+  return all;
+}
+
 }  // namespace gearlash

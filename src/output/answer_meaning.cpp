@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "model/reduced_drive.hpp"
-#include "question/repetition.hpp"
 
 namespace gearlash {
 namespace {
@@ -143,7 +142,7 @@ std::string ends_text(const Answer& answer) {
   const SearchRecord& search = *answer.search;
   const auto repeating = static_cast<std::size_t>(
       std::count_if(search.starts.begin(), search.starts.end(), [&](const StartOutcome& start) {
-        return start.end == "irregular" && start.which && repeats(answer.irregular[*start.which]);
+        return start.end == "irregular" && start.which && answer.irregular[*start.which].repeats();
       }));
   std::string text;
   const auto add = [&](std::size_t count, const char* what) {

@@ -18,7 +18,6 @@
 #include "output/change_report.hpp"
 #include "output/columns.hpp"
 #include "output/measured_report.hpp"
-#include "question/repetition.hpp"
 
 namespace gearlash {
 namespace {
@@ -110,7 +109,7 @@ std::string motion_text(const AnswerReport& report) {
   if (motion.is_motor_alone && motion.motor_amplitude) {
     return of_motor(*motion.motor_amplitude) + at + ", while the load hardly moves";
   }
-  return (repeats(motion) ? "" : "up to ") + amplitude(motion.amplitude) + at +
+  return (motion.repeats() ? "" : "up to ") + amplitude(motion.amplitude) + at +
          quantization_text(report, motion.encoder_steps);
 }
 
@@ -262,8 +261,8 @@ std::string irregular_text(const AnswerReport& report, const IrregularMotion& mo
   };
   const std::string title = motion.is_motor_alone
                                 ? "The motor hunts within the gap, while the load hardly moves"
-                            : repeats(motion) ? "Motion whose swings repeat"
-                                              : "Motion that was not seen to repeat";
+                            : motion.repeats() ? "Motion whose swings repeat"
+                                               : "Motion that was not seen to repeat";
   ReportRows rows = {
       {amplitude_row(report, "amplitude, load", motion.amplitude)},
       {amplitude_row(report, "amplitude, motor", *motion.motor_amplitude)},
@@ -385,6 +384,15 @@ AnswerReport report_of(const Drive& drive, const Answer& answer, const AngleUnit
           .angle = angle,
           .is_normalized = is_normalized(drive),
           .provenance = provenance};
+}
+
+std::vector<ParameterFacts> AnswerReport::parameters() const {
+  std::vector<ParameterFacts> all;
+  if (!margin) return all;
+  for (const ParameterMargin& one : margin->parameters) {
+    all.push_back(facts_of(drive, one.parameter));
+  }
+  return all;
 }
 
 AnswerReport report_of(const Drive& drive, const Answer& answer) {

@@ -1,15 +1,17 @@
 // The report of an answer, as text and as JSON, for both engines.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "gearlash/answer.hpp"
 #include "gearlash/design.hpp"
 #include "gearlash/drive.hpp"
 #include "gearlash/sensitivity.hpp"
 #include "input/units.hpp"
+#include "output/parameter_text.hpp"
 #include "output/report_units.hpp"
 
 namespace gearlash {
@@ -20,19 +22,37 @@ struct MeasuredHunting {
   double frequency = 0.0;  ///< Hz
 };
 
+/// A motion on which the drive may stay, beside the measured one.
+struct MotionBesideMeasured {
+  std::string list{};            ///< of the answer: "cycles" or "irregular"
+  std::size_t index = 0;         ///< in it
+  double amplitude = 0.0;        ///< rad, of the load
+  double frequency = 0.0;        ///< Hz
+  double amplitude_share = 0.0;  ///< by which the measured amplitude exceeds it, as a share
+  double frequency_share = 0.0;  ///< by which the measured frequency exceeds it, as a share
+};
+
+/// "gearlash/limit-cycle/3": what a drive ends in.
 struct AnswerReport {
-  Drive drive{};
-  Answer answer{};
-  AngleUnit angle{};  ///< of text; JSON is in SI
+  Drive drive{};      ///< its parameters
+  Answer answer{};    ///< what it ends in
+  AngleUnit angle{};  ///< the author's, of text
   /// The normal form without a natural frequency: text has times in units of 1/ω_n.
   bool is_normalized = false;
-  Provenance provenance{};
+  Provenance provenance{};                ///< how it was made
   std::optional<HuntingMargin> margin{};  ///< on request, as is `sensitivity`
-  std::optional<Jacobian> sensitivity{};
+  std::optional<Jacobian> sensitivity{};  ///< derivatives, on request
   /// rad: an amplitude of the load for which the widest backlash is to be stated that provably
   /// keeps it. Needs the ceiling.
   std::optional<double> specification{};
   std::optional<MeasuredHunting> measured{};  ///< to be compared with every motion found
+
+  [[nodiscard]] std::optional<double> widest_backlash()
+      const;  ///< rad, that provably keeps the specification; empty where none is proved
+  [[nodiscard]] std::vector<MotionBesideMeasured> beside_measured()
+      const;  ///< the motions that do not fade, the nearest to the measured one first
+  [[nodiscard]] std::vector<ParameterFacts> parameters()
+      const;  ///< of the margins; their values of words are indices into the choices
 };
 
 /// A report without margins and sensitivities.
@@ -52,12 +72,7 @@ std::string headline(const AnswerReport& report);
 /// meaning of the answer. Ends with a newline.
 std::string answer_text(const AnswerReport& report);
 
-/// "gearlash/limit-cycle/2", specified in docs/reference/command-line.md, in SI. Ends with a
-/// newline.
+/// The report as JSON, in SI. Ends with a newline.
 std::string answer_json(const AnswerReport& report);
-
-/// One cycle of the report, and one irregular motion.
-nlohmann::ordered_json json_cycle(const Cycle& cycle);
-nlohmann::ordered_json json_irregular(const IrregularMotion& motion);
 
 }  // namespace gearlash

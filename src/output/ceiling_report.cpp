@@ -4,7 +4,6 @@
 
 #include "model/signal.hpp"
 #include "output/columns.hpp"
-#include "output/json_values.hpp"
 
 namespace gearlash {
 namespace {
@@ -17,11 +16,6 @@ std::string torque_text(double torque, const AnswerReport& report) {
 std::string remark_on_limit(const Ceiling& ceiling) {
   if (!ceiling.meets_limit) return "";
   return *ceiling.meets_limit ? "below the torque limit" : "the torque limit may be reached";
-}
-
-Json starts_json(const std::optional<SafeStarts>& starts) {
-  if (!starts) return nullptr;
-  return {{"position", json_number(starts->position)}, {"speed", json_number(starts->speed)}};
 }
 
 /// Rounded down.
@@ -50,14 +44,6 @@ std::string safe_starts_text(const AnswerReport& report) {
              lower_bound_text(starts->position, report), lower_bound_text(starts->speed, report)));
 }
 
-std::optional<double> widest_backlash(const AnswerReport& report) {
-  const std::optional<Ceiling>& ceiling = report.answer.ceiling;
-  if (!ceiling || !report.specification) return std::nullopt;
-  const double backlash =
-      report.drive.servo ? report.drive.servo->backlash : report.drive.gearbox.backlash;
-  return ceiling->widest_backlash(*report.specification, backlash);
-}
-
 std::string below_limit_text(const Ceiling& ceiling) {
   return ceiling.is_below_limit ? ", if its torque stays below the limit" : "";
 }
@@ -73,6 +59,12 @@ std::string mesh_torque_alone(const AnswerReport& report) {
 }
 
 }  // namespace
+
+std::optional<double> AnswerReport::widest_backlash() const {
+  if (!answer.ceiling || !specification) return std::nullopt;
+  const double backlash = drive.servo ? drive.servo->backlash : drive.gearbox.backlash;
+  return answer.ceiling->widest_backlash(*specification, backlash);
+}
 
 std::string ceiling_text(const AnswerReport& report) {
   if (!report.answer.ceiling) return "";
@@ -109,7 +101,7 @@ std::string specification_text(const AnswerReport& report) {
       "±" + significant(report.angle.from_radians(*report.specification), usual_digits) + " " +
       report.angle.name;
   if (!ceiling.load) return "";  // the reason stands where the ceiling would be
-  const std::optional<double> widest = widest_backlash(report);
+  const std::optional<double> widest = report.widest_backlash();
   if (widest) {
     return "\n" +
            wrapped(fmt::format(
@@ -122,37 +114,6 @@ std::string specification_text(const AnswerReport& report) {
                     "Specification: no backlash is proved to keep the load within {}: what else "
                     "disturbs the loop may move it further.",
                     wanted));
-}
-
-Json specification_json(const AnswerReport& report) {
-  if (!report.specification || !report.answer.ceiling) return nullptr;
-  const std::optional<double>& ceiling = report.answer.ceiling->load;
-  return {{"amplitude", json_number(*report.specification)},
-          {"widest_backlash", json_optional(widest_backlash(report))},
-          {"is_met", ceiling.has_value() && *ceiling <= *report.specification}};
-}
-
-nlohmann::ordered_json ceiling_json(const std::optional<Ceiling>& ceiling) {
-  if (!ceiling) return nullptr;
-  const auto text = [](const std::string& words) {
-    return words.empty() ? Json(nullptr) : Json(words);
-  };
-  return {{"value", json_optional(ceiling->load)},
-          {"motor", json_optional(ceiling->motor)},
-          {"effort", json_optional(ceiling->effort)},
-          {"reason", text(ceiling->reason)},
-          {"effort_reason", text(ceiling->effort_reason)},
-          {"below_limit", ceiling->is_below_limit},
-          {"meets_limit", ceiling->meets_limit ? Json(*ceiling->meets_limit) : Json(nullptr)},
-          {"mesh_torque", json_optional(ceiling->mesh_torque)},
-          {"safe_starts", starts_json(ceiling->safe_starts)},
-          {"terms", json_list(ceiling->terms, [](const CeilingTerm& term) {
-             return Json{{"source", term.source},
-                         {"size", json_number(term.size)},
-                         {"load", json_number(term.load)},
-                         {"motor", json_number(term.motor)},
-                         {"effort", json_optional(term.effort)}};
-           })}};
 }
 
 }  // namespace gearlash

@@ -1,7 +1,7 @@
 // The ceiling in reports.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "output/answer_report.hpp"
 
@@ -12,10 +12,5 @@ std::string ceiling_text(const AnswerReport& report);
 
 /// The widest backlash that provably meets the specification, or why none does. Empty without one.
 std::string specification_text(const AnswerReport& report);
-/// Null without one.
-nlohmann::ordered_json specification_json(const AnswerReport& report);
-
-/// Null if it was not computed.
-nlohmann::ordered_json ceiling_json(const std::optional<Ceiling>& ceiling);
 
 }  // namespace gearlash

@@ -8,7 +8,6 @@
 #include <numeric>
 
 #include "output/columns.hpp"
-#include "output/json_values.hpp"
 #include "output/parameter_text.hpp"
 #include "question/axis.hpp"
 
@@ -124,54 +123,6 @@ std::string words_of(Quantity quantity) {
   return words;
 }
 
-// ---- JSON ---------------------------------------------------------------------------------------
-
-using JsonOfValue = std::function<Json(double)>;
-
-Json json_margin_of(const ParameterMargin& margin, const std::string& unit,
-                    const JsonOfValue& json_of) {
-  const auto optional = [&](const std::optional<double>& value) {
-    return value ? json_of(*value) : Json(nullptr);
-  };
-  const auto of_bounds = [&](const Bounds& bounds) {
-    return Json{{"from", json_of(bounds.low)}, {"to", json_of(bounds.high)}};
-  };
-  const bool is_searched = margin.kind == SearchKind::searched;
-  return {{"parameter", margin.parameter},
-          {"unit", unit},
-          {"present", json_of(margin.present)},
-          {"below", optional(margin.below)},
-          {"above", optional(margin.above)},
-          {"choices", json_list(margin.choices, json_of)},
-          {"certified", margin.kind == SearchKind::certified},
-          {"searched", of_bounds(margin.searched)},
-          {"grid", json_list(margin.grid, json_of)},
-          {"located", is_searched ? json_number(margin.located) : Json(nullptr)},
-          {"undecided", json_list(margin.undecided, of_bounds)}};
-}
-
-Json json_overall(const std::optional<OverallMargin>& overall) {
-  if (!overall || !overall->change) return nullptr;
-  const LogChange& change = *overall->change;
-  return {{"distance", json_number(change.length())},
-          {"motor_inertia", json_number(change.motor_inertia)},
-          {"load_inertia", json_number(change.load_inertia)},
-          {"motor_friction", json_number(change.motor_friction)},
-          {"load_friction", json_number(change.load_friction)},
-          {"stiffness", json_number(change.stiffness)}};
-}
-
-Json json_combined(const std::optional<CombinedMargin>& combined) {
-  if (!combined) return nullptr;
-  Json factors = Json::object();
-  for (std::size_t i = 0; i < combined->parameters.size(); ++i) {
-    factors[combined->parameters[i]] = json_number(combined->factors[i]);
-  }
-  return {{"distance", json_number(combined->distance)},
-          {"located", json_number(combined->located)},
-          {"factors", std::move(factors)}};
-}
-
 }  // namespace
 
 Quantity quantity_of_effect(const Jacobian& sensitivity) {
@@ -256,35 +207,6 @@ std::string sensitivity_text(const Jacobian& sensitivity) {
     if (has_one) rows.push_back(std::move(row));
   }
   return text + table_text(rows);
-}
-
-nlohmann::ordered_json margin_json(const Drive& drive, const HuntingMargin& margin) {
-  const auto of_parameter = [&](const ParameterMargin& one) {
-    const Axis axis{.path = one.parameter};
-    return json_margin_of(one, unit_of(axis, drive),
-                          [&](double value) { return json_value(axis, drive, value); });
-  };
-  return {{"hunts", margin.is_known ? Json(margin.hunts) : Json(nullptr)},
-          {"parameters", json_list(margin.parameters, of_parameter)},
-          {"overall", json_overall(margin.overall)},
-          {"combined", json_combined(margin.combined)},
-          {"stopped", margin.stopped}};
-}
-
-nlohmann::ordered_json sensitivity_json(const Jacobian& jacobian) {
-  Json numbers = Json::array();
-  for (std::size_t j = 0; j < jacobian.paths.size(); ++j) {
-    Json json = {{"parameter", jacobian.paths[j]}, {"present", json_number(jacobian.present[j])}};
-    for (std::size_t i = 0; i < jacobian.quantities.size(); ++i) {
-      json[std::string(name_of(jacobian.quantities[i]))] = {
-          {"slope", json_optional(jacobian.slope(i, j))},
-          {"elasticity", json_optional(jacobian.elasticity(i, j))}};
-    }
-    numbers.push_back(std::move(json));
-  }
-  return {{"available", jacobian.reason.empty()},
-          {"reason", jacobian.reason.empty() ? Json() : Json(jacobian.reason)},
-          {"numbers", std::move(numbers)}};
 }
 
 }  // namespace gearlash

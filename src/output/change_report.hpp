@@ -2,7 +2,6 @@
 // sensitivities.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,9 +17,6 @@ namespace gearlash {
 std::string margin_text(const Drive& drive, const HuntingMargin& margin, const AngleUnit& angle);
 /// Elasticities, the largest first; or one line that says why there are none.
 std::string sensitivity_text(const Jacobian& sensitivity);
-
-nlohmann::ordered_json margin_json(const Drive& drive, const HuntingMargin& margin);
-nlohmann::ordered_json sensitivity_json(const Jacobian& jacobian);
 
 /// The quantity by which effects are compared: the amplitude, or growth at rest without a limit
 /// cycle.

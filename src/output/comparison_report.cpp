@@ -9,8 +9,6 @@
 #include "model/reduced_drive.hpp"
 #include "output/answer_report.hpp"
 #include "output/columns.hpp"
-#include "output/drive_text.hpp"
-#include "output/json_values.hpp"
 #include "output/parameter_text.hpp"
 
 namespace gearlash {
@@ -187,51 +185,6 @@ std::string in_blocks(const std::vector<TableRow>& rows) {
   return text;
 }
 
-// ---- JSON ---------------------------------------------------------------------------------------
-
-Json json_step(const std::optional<StepResponse>& response) {
-  if (!response) return nullptr;
-  return {{"step", json_number(response->step)},
-          {"watched", json_number(response->until)},
-          {"rise_time", json_optional(response->rise_time)},
-          {"overshoot", json_optional(response->overshoot)},
-          {"settling_time", json_optional(response->settling_time)},
-          {"band", json_number(response->band)},
-          {"final_error", json_number(response->final_error)},
-          {"ripple", json_number(response->ripple)}};
-}
-
-Json json_values_of(const ComparedDrive& one, const std::vector<Quantity>& quantities) {
-  Json values = Json::object();
-  for (const Quantity quantity : quantities) {
-    const bool is_word = info_of(quantity).kind == QuantityKind::choice;
-    values[std::string(name_of(quantity))] =
-        is_word ? Json(name_of(one.answer->verdict)) : json_optional(one.answer->value(quantity));
-  }
-  return values;
-}
-
-Json json_axis_of(const ComparisonReport& report) {
-  if (!report.axis) return nullptr;
-  const std::string unit = unit_of(*report.axis, report.drives.front().drive);
-  return {{"path", report.axis->path}, {"unit", unit.empty() ? Json(nullptr) : Json(unit)}};
-}
-
-Json json_case(const ComparisonReport& report, std::size_t i) {
-  const ComparedDrive& one = report.drives[i];
-  Json json = {{"name", one.name},
-               {"value", report.axis ? json_value(*report.axis, one.drive, report.axis->values[i])
-                                     : Json(nullptr)},
-               {"encoder_step", json_number(one.encoder_step)},
-               {"stiffness", json_optional(one.stiffness)}};
-  json["loop"] = one.answer ? json_linear_loop(one.answer->loop) : Json(nullptr);
-  json["step_response"] = one.answer ? json_step(one.answer->step) : Json(nullptr);
-  json["values"] = one.answer ? json_values_of(one, report.quantities) : Json(nullptr);
-  json["limit_cycle"] =
-      one.answer ? Json::parse(answer_json(answer_report_of(report, i))) : Json(nullptr);
-  return json;
-}
-
 }  // namespace
 
 std::vector<Quantity> usual_quantities_compared() {
@@ -279,16 +232,6 @@ std::string comparison_text(const ComparisonReport& report) {
       unstable_text(report) + rescaled_text(report) + sensor_text(report) + step_text(report);
   return comparison_headlines(report) + in_blocks(rows_of(report)) +
          (remarks.empty() ? "" : "\n" + wrapped(remarks));
-}
-
-std::string comparison_json(const ComparisonReport& report) {
-  Json json = json_head("compare", report.provenance);
-  json["parameter"] = json_axis_of(report);
-  json["cases"] = Json::array();
-  for (std::size_t i = 0; i < report.drives.size(); ++i) {
-    json["cases"].push_back(json_case(report, i));
-  }
-  return json.dump(2) + "\n";
 }
 
 }  // namespace gearlash

@@ -14,12 +14,14 @@ namespace gearlash {
 /// What a comparison shows if nothing else is asked for.
 std::vector<Quantity> usual_quantities_compared();
 
+/// "gearlash/compare/3": drives side by side.
 struct ComparisonReport {
   std::vector<ComparedDrive> drives{};  ///< at least one
+  /// What the table has; each answer has all.
   std::vector<Quantity> quantities = usual_quantities_compared();
   std::optional<Axis> axis{};       ///< of values of one parameter, one for each drive
   std::vector<AngleUnit> angles{};  ///< of each drive; the table has the first one's
-  Provenance provenance{};
+  Provenance provenance{};          ///< how it was made
 };
 
 /// Whether no drive has a time scale: times are in 1/ω_n.
@@ -37,7 +39,7 @@ std::string comparison_headlines(const ComparisonReport& report);
 /// newline.
 std::string comparison_text(const ComparisonReport& report);
 
-/// "gearlash/compare/2", specified in docs/schemas/compare.schema.json, in SI. Ends with a newline.
+/// The report as JSON, in SI. Ends with a newline.
 std::string comparison_json(const ComparisonReport& report);
 
 }  // namespace gearlash

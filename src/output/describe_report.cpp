@@ -6,12 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "base/overloaded.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/answer_report.hpp"
 #include "output/columns.hpp"
-#include "output/drive_text.hpp"
-#include "output/json_values.hpp"
 
 namespace gearlash {
 namespace {
@@ -66,7 +63,7 @@ std::string cycle_table(const DescribingAnalysis& analysis, const DescribeReport
                               {cycle.amplitude, cycle.motor_amplitude, cycle.balance.period},
                               report));
     if (is_forced(report)) continue;
-    const auto error = drive::prediction_error(analysis.part, cycle, exact);
+    const std::optional<PredictionError>& error = cycle.error;
     if (!error && cycle.balance.stable) rows.push_back({"  exact", without_exact(report, exact)});
     if (!error) continue;
     rows.push_back(motion_row("  exact", exact[error->exact], report));
@@ -130,7 +127,7 @@ std::string unresolved_text(const DescribingAnalysis& analysis) {
 std::string assumptions_text(const DescribingAnalysis& analysis) {
   std::string text;
   for (const drive::Assumption assumption : analysis.assumptions) {
-    text += (text.empty() ? "Assumed: " : "; ") + std::string(description_of(assumption));
+    text += (text.empty() ? "Assumed: " : "; ") + std::string(name_of(assumption));
   }
   return text.empty() ? "" : text + ".";
 }
@@ -158,91 +155,14 @@ std::string analysis_text(const DescribingAnalysis& analysis, const DescribeRepo
   return remarks.empty() ? text : text + indented(wrapped(remarks));
 }
 
-// ---- JSON ---------------------------------------------------------------------------------------
-
-Json json_nonlinearity(const Nonlinearity& nonlinearity) {
-  return std::visit(
-      Overloaded{[](const FrictionControlledBacklash& gap) -> Json {
-                   return {{"kind", "friction-controlled backlash"}, {"gap", json_number(gap.gap)}};
-                 },
-                 [](const InertiaControlledBacklash& gap) -> Json {
-                   return {{"kind", "inertia-controlled backlash"}, {"gap", json_number(gap.gap)}};
-                 },
-                 [](const RelayWithHysteresis& relay) -> Json {
-                   return {{"kind", "relay with hysteresis"},
-                           {"level", json_number(relay.level)},
-                           {"half_width", json_number(relay.half_width)}};
-                 },
-                 [](const Saturation& saturation) -> Json {
-                   return {{"kind", "saturation"},
-                           {"limit", json_number(saturation.limit)},
-                           {"slope", json_number(saturation.slope)}};
-                 },
-                 [](const CoulombFriction& friction) -> Json {
-                   return {{"kind", "Coulomb friction"}, {"torque", json_number(friction.torque)}};
-                 },
-                 [](const DeadZone& zone) -> Json {
-                   return {{"kind", "dead zone"},
-                           {"half_width", json_number(zone.half_width)},
-                           {"slope", json_number(zone.slope)}};
-                 }},
-      nonlinearity);
-}
-
-Json json_transfer(const TransferFunction& transfer) {
-  return {{"numerator", transfer.numerator},
-          {"denominator", transfer.denominator},
-          {"delay", json_number(transfer.delay)}};
-}
-
-Json json_error(const std::optional<PredictionError>& error, const Answer& answer) {
-  if (!error) return nullptr;
-  const std::size_t cycles = answer.cycles.size();
-  const bool is_of_cycle = error->exact < cycles;
-  return {{"of_exact_cycle", is_of_cycle ? Json(error->exact) : Json(nullptr)},
-          {"of_irregular", is_of_cycle ? Json(nullptr) : Json(error->exact - cycles)},
-          {"amplitude", json_number(error->amplitude)},
-          {"motor_amplitude", json_number(error->motor_amplitude)},
-          {"period", json_number(error->period)},
-          {"frequency", json_number(error->frequency)}};
-}
-
-Json json_motion(const DescribingAnalysis& analysis, const DescribedMotion& motion,
-                 const DescribeReport& report) {
-  const PredictedCycle& balance = motion.balance;
-  const auto error = prediction_error(analysis.part, motion, drive::exact_motions(report.answer));
-  return {{"stable", balance.stable},
-          {"amplitude", json_number(motion.amplitude)},
-          {"motor_amplitude", json_number(motion.motor_amplitude)},
-          {"period", json_number(balance.period)},
-          {"frequency", json_number(1.0 / balance.period)},
-          {"input_amplitude", json_number(balance.amplitude)},
-          {"gain",
-           {{"real", json_number(balance.gain.real())},
-            {"imaginary", json_number(balance.gain.imag())}}},
-          {"residual", json_number(balance.residual)},
-          {"error", json_error(error, report.answer)}};
-}
-
-Json json_analysis(const DescribingAnalysis& analysis, const DescribeReport& report) {
-  const auto json_of = [&](const DescribedMotion& motion) {
-    return json_motion(analysis, motion, report);
-  };
-  return {{"part", name_of(analysis.part)},
-          {"nonlinearity", json_nonlinearity(analysis.nonlinearity)},
-          {"in_loop", is_in_loop(analysis)},
-          {"loop", json_transfer(analysis.loop)},
-          {"assumptions", json_list(analysis.assumptions, &drive::description_of)},
-          {"cycles", json_list(analysis.cycles, json_of)},
-          {"unresolved_angular_frequencies", json_list(analysis.unresolved, &json_bounds)}};
-}
-
 }  // namespace
 
 DescribeReport describe_report_of(const Drive& drive, const Answer& answer, const AngleUnit& angle,
                                   const Provenance& provenance) {
   const drive::ReducedDrive reduced = reduce(drive);
-  return {.analyses = drive::describing_analyses(reduced),
+  std::vector<DescribingAnalysis> analyses = drive::describing_analyses(reduced);
+  set_errors(analyses, answer);
+  return {.analyses = std::move(analyses),
           .drive = drive,
           .answer = answer,
           .backlash = reduced.backlash,
@@ -259,18 +179,6 @@ std::string describe_text(const DescribeReport& report) {
     text += "\n" + analysis_text(analysis, report);
   }
   return text;
-}
-
-std::string describe_json(const DescribeReport& report) {
-  Json json = json_head("describe", report.drive, report.provenance);
-  json["engine"] = name_of(report.answer.engine);
-  json["verdict"] = name_of(report.answer.verdict);
-  json["cycles"] = json_list(report.answer.cycles, &json_cycle);
-  json["irregular"] = json_list(report.answer.irregular, &json_irregular);
-  json["analyses"] = json_list(report.analyses, [&](const DescribingAnalysis& analysis) {
-    return json_analysis(analysis, report);
-  });
-  return json.dump(2) + "\n";
 }
 
 }  // namespace gearlash

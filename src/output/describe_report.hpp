@@ -11,14 +11,15 @@
 
 namespace gearlash {
 
+/// "gearlash/describe/3": predictions of describing functions beside the exact answer.
 struct DescribeReport {
-  std::vector<drive::DescribingAnalysis> analyses = {};
-  Drive drive = {};
-  Answer answer = {};          ///< exact; not predicted if a sine drives the drive
+  std::vector<drive::DescribingAnalysis> analyses{};  ///< one for each nonlinearity
+  Drive drive{};                                      ///< its parameters
+  Answer answer{};             ///< exact; not predicted if a sine drives the drive
   double backlash = 0.0;       ///< rad; predictions too small beside it are left out
-  AngleUnit angle = {};        ///< unit of the author's backlash
+  AngleUnit angle{};           ///< unit of the author's backlash
   bool is_normalized = false;  ///< text has times in units of 1/ω_n
-  Provenance provenance = {};
+  Provenance provenance{};     ///< how it was made
 };
 
 /// The describing functions of the drive beside its exact answer.
@@ -29,8 +30,7 @@ DescribeReport describe_report_of(const Drive& drive, const Answer& answer,
 /// with the error in per cent, the loop and the assumptions. Ends with a newline.
 std::string describe_text(const DescribeReport& report);
 
-/// "gearlash/describe/2", specified in docs/schemas/describe.schema.json, in SI. Numbers read back
-/// exactly. Ends with a newline.
+/// The report as JSON, in SI. Numbers read back exactly. Ends with a newline.
 std::string describe_json(const DescribeReport& report);
 
 }  // namespace gearlash

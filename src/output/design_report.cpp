@@ -9,8 +9,6 @@
 
 #include "model/reduced_drive.hpp"
 #include "output/columns.hpp"
-#include "output/drive_text.hpp"
-#include "output/json_values.hpp"
 #include "output/parameter_text.hpp"
 #include "question/axis.hpp"
 #include "question/change/proved_values.hpp"
@@ -358,97 +356,6 @@ std::string certainty(const DesignReport& report) {
   return text;
 }
 
-// ---- JSON ---------------------------------------------------------------------------------------
-
-Json json_performance(const Answer& answer) {
-  return {{"verdict", name_of(answer.verdict)},
-          {"growth_at_rest", json_optional(answer.growth_at_rest)},
-          {"amplitude", json_optional(answer.value(Quantity::amplitude))},
-          {"frequency", json_optional(answer.value(Quantity::frequency))},
-          {"static_error", json_optional(answer.value(Quantity::static_error))}};
-}
-
-Json json_response(const Answer& answer) {
-  const StepResponse response = answer.step.value_or(StepResponse{});
-  return {{"step", json_number(response.step)},
-          {"rise_time", json_optional(response.rise_time)},
-          {"overshoot", json_optional(response.overshoot)},
-          {"settling_time", json_optional(response.settling_time)}};
-}
-
-Json json_form(const std::optional<NormalFormNumbers>& form) {
-  if (!form) return nullptr;
-  return {{"natural_frequency", json_number(form->natural_frequency)},
-          {"damping", json_number(form->damping)},
-          {"stiffness", json_optional(form->stiffness)}};
-}
-
-Json json_result(const Drive& drive, const FeasibleValues& values, const DriveWithValue& one) {
-  const Axis axis{.path = values.parameter};
-  const bool is_word = !parameter_of(axis, drive)->choices.empty();
-  const bool has_ratio = !is_word && values.present != 0.0;
-  return {{"value", json_value(axis, drive, one.value)},
-          {"change_percent",
-           has_ratio ? json_number(100.0 * (one.value / values.present - 1.0)) : Json(nullptr)},
-          {"performance", json_performance(one.answer)},
-          {"normal_form", json_form(one.answer.normal_form)},
-          {"loop", json_linear_loop(one.answer.loop)},
-          {"response", json_response(one.answer)}};
-}
-
-Json json_parameter(const Drive& drive, const DesignedParameter& parameter) {
-  const FeasibleValues& values = parameter.values;
-  const Axis axis{.path = values.parameter};
-  const auto of_value = [&](double value) { return json_value(axis, drive, value); };
-  const auto of_interval = [&](const Bounds& interval) {
-    return Json{{"from", of_value(interval.low)}, {"to", of_value(interval.high)}};
-  };
-  const auto nearest = std::min_element(
-      parameter.results.begin(), parameter.results.end(), [&](const auto& a, const auto& b) {
-        const auto distance = [&](double value) {
-          return value > 0.0 && values.present > 0.0 ? std::abs(std::log(value / values.present))
-                                                     : std::abs(value - values.present);
-        };
-        return distance(a.value) < distance(b.value);
-      });
-  const Json best =
-      nearest == parameter.results.end() ? Json(nullptr) : json_result(drive, values, *nearest);
-  return {{"parameter", values.parameter},
-          {"description", parameter_of(axis, drive)->meaning},
-          {"unit", unit_of(axis, drive)},
-          {"present", of_value(values.present)},
-          {"searched", of_interval(values.searched)},
-          {"certified", values.kind == SearchKind::certified && !values.stopped},
-          {"stopped", values.stopped},
-          {"grid", json_list(values.grid, of_value)},
-          {"located", json_number(values.located)},
-          {"intervals", json_list(values.intervals, of_interval)},
-          {"borders", json_list(values.borders,
-                                [](const Border& border) {
-                                  return Json{{"end", json_number(border.end)},
-                                              {"kind", name_of(border.kind)},
-                                              {"at", json_number(border.at)},
-                                              {"located", json_number(border.located)},
-                                              {"event", border.event.empty() ? Json(nullptr)
-                                                                             : Json(border.event)}};
-                                })},
-          {"proofs", json_list(values.proofs,
-                               [&](const IntervalProof& proof) {
-                                 const bool is_proved = !proof.parts.empty();
-                                 return Json{
-                                     {"proved", json_list(proof.parts, of_interval)},
-                                     {"boxes", proof.boxes},
-                                     {"reason", is_proved ? Json(nullptr) : Json(proof.reason)}};
-                               })},
-          {"searched_within", json_list(values.searched_within.limits,
-                                        [](const QuantityLimit& limit) {
-                                          return Json(std::string(name_of(limit.quantity)));
-                                        })},
-          {"undecided", json_list(values.undecided, of_interval)},
-          {"nearest", values.intervals.empty() ? Json(nullptr) : best},
-          {"closest", values.intervals.empty() ? best : Json(nullptr)}};
-}
-
 }  // namespace
 
 std::string design_text(const DesignReport& report) {
@@ -464,20 +371,12 @@ std::string design_text(const DesignReport& report) {
          wrapped(certainty(report));
 }
 
-std::string design_json(const DesignReport& report) {
-  const Answer& present = report.design.present.answer;
-  Json json = json_head("design", report.drive, report.provenance);
-  json["target"] = report.target_text;
-  json["met"] = report.design.met == Judgement::some ? Json(nullptr)
-                                                     : Json(report.design.met == Judgement::all);
-  json["present"] = {{"performance", json_performance(present)},
-                     {"normal_form", json_form(present.normal_form)},
-                     {"loop", json_linear_loop(present.loop)},
-                     {"response", json_response(present)}};
-  json["answers"] = json_list(report.design.parameters, [&](const DesignedParameter& parameter) {
-    return json_parameter(report.drive, parameter);
-  });
-  return json.dump(2) + "\n";
+std::vector<ParameterFacts> DesignReport::parameters() const {
+  std::vector<ParameterFacts> all;
+  for (const DesignedParameter& one : design.parameters) {
+    all.push_back(facts_of(drive, one.values.parameter));
+  }
+  return all;
 }
 
 }  // namespace gearlash

@@ -5,19 +5,24 @@
 #include <vector>
 
 #include "gearlash/design.hpp"
+#include "output/parameter_text.hpp"
 #include "output/report_units.hpp"
 #include "question/change/design.hpp"
 #include "question/change/target.hpp"
 
 namespace gearlash {
 
+/// "gearlash/design/3": what must change so that a drive meets a target.
 struct DesignReport {
-  Drive drive{};
+  Drive drive{};              ///< its parameters
   std::string target_text{};  ///< as its author wrote it
-  Target target{};
-  Design design{};
-  AngleUnit angle{};  ///< of text
-  Provenance provenance{};
+  Target target{};            ///< what it asks for
+  Design design{};            ///< the answer
+  AngleUnit angle{};          ///< the author's, of text
+  Provenance provenance{};    ///< how it was made
+
+  [[nodiscard]] std::vector<ParameterFacts> parameters()
+      const;  ///< of the design; their values of words are indices into the choices
 };
 
 /// A table with a line for every interval of values that meets the target, its side effects, what
@@ -25,7 +30,7 @@ struct DesignReport {
 /// are rounded to the side that meets the target. Ends with a newline.
 std::string design_text(const DesignReport& report);
 
-/// "gearlash/design/2" (docs/schemas), in SI. Numbers read back exactly. Ends with a newline.
+/// The report as JSON, in SI. Numbers read back exactly. Ends with a newline.
 std::string design_json(const DesignReport& report);
 
 }  // namespace gearlash

@@ -15,7 +15,7 @@
 #include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/columns.hpp"
-#include "output/json_values.hpp"
+#include "output/json_writer.hpp"
 #include "question/drive_notes.hpp"
 
 namespace gearlash {
@@ -23,7 +23,7 @@ namespace {
 
 std::string toml_text(std::string_view text) {
   // TOML's basic strings have JSON's escapes.
-  return Json(as_utf8(text)).dump();
+  return text.empty() ? "\"\"" : json_text(as_utf8(text));
 }
 
 /// How numbers are written: the shortest decimals, or with digits by which readers see that they
@@ -127,18 +127,16 @@ std::string toleranced_text(const Distribution& varies, const Parameter& paramet
   return fmt::format("{{ lots = [{}] }}", lots);
 }
 
-Json value_json(const Parameter& parameter, const Drive& drive) {
+ParameterValue value_of(const Parameter& parameter, const Drive& drive) {
   const Slot slot = parameter.slot(const_cast<Drive&>(drive));
   if (const auto* choice = std::get_if<Choice>(&slot)) {
-    return parameter.choices[choice->chosen(drive)];
+    return std::string(parameter.choices[choice->chosen(drive)]);
   }
   if (auto* const* list = std::get_if<std::vector<double>*>(&slot)) return **list;
   if (auto* const* rows = std::get_if<Rows*>(&slot)) return **rows;
-  if (auto* const* text = std::get_if<std::string*>(&slot)) {
-    return (*text)->empty() ? Json(nullptr) : Json(as_utf8(**text));
-  }
+  if (auto* const* text = std::get_if<std::string*>(&slot)) return as_utf8(**text);
   const std::optional<double> number = number_in(parameter, drive);
-  return number ? json_number(*number) : Json(nullptr);
+  return number ? ParameterValue(*number) : ParameterValue();
 }
 
 /// A drive with the same parts and kinds, and defaults for everything else.
@@ -209,12 +207,12 @@ std::string to_toml(const TolerancedDrive& drive) { return toml_of(drive, Follow
 
 std::string given_toml(const TolerancedDrive& drive) { return toml_of(drive, Followers::left_out); }
 
-nlohmann::ordered_json drive_json(const Drive& drive) {
-  Json json = Json::object();
+ByName<ParameterValue> parameter_values(const Drive& drive) {
+  ByName<ParameterValue> values;
   for (const Parameter& parameter : all_parameters_of_drives()) {
-    if (exists(parameter, drive)) json[std::string(parameter.path)] = value_json(parameter, drive);
+    if (exists(parameter, drive)) values.emplace_back(parameter.path, value_of(parameter, drive));
   }
-  return json;
+  return values;
 }
 
 std::vector<std::string> defaults_taken(const Drive& drive) {
@@ -231,20 +229,6 @@ std::vector<std::string> defaults_taken(const Drive& drive) {
     }
   }
   return paths;
-}
-
-Json json_head(const char* name, const Provenance& provenance) {
-  return {{"schema", fmt::format("gearlash/{}/2", name)},
-          {"version", provenance.version},
-          {"command", provenance.command},
-          {"units", "SI"}};
-}
-
-Json json_head(const char* name, const Drive& drive, const Provenance& provenance) {
-  Json json = json_head(name, provenance);
-  json["drive"] = drive_json(drive);
-  json["defaults"] = defaults_taken(drive);
-  return json;
 }
 
 namespace {
@@ -270,22 +254,17 @@ std::string further_remarks(const Drive& drive) {
   return remarks;
 }
 
-/// The registers as a controller in SI units; null without a firmware.
-Json firmware_json(const Drive& drive) {
-  if (!drive.controller.firmware) return nullptr;
+/// The registers as a controller in SI units; nothing without a firmware.
+std::optional<ConvertedFirmware> converted_firmware(const Drive& drive) {
+  if (!drive.controller.firmware) return std::nullopt;
   const FirmwareFacts& facts = all_firmwares()[drive.controller.firmware->index()];
   const Conversion conversion = converted(drive);
-  Json json = {{"name", facts.name},
-               {"source", facts.source},
-               {"left_out", facts.left_out},
-               {"shaft", find_parameter("controller.shaft")
-                             ->choices[static_cast<std::size_t>(conversion.controller.shaft)]},
-               {"gains", Json::array()}};
-  for (const ConvertedGain& gain : conversion.gains) {
-    json["gains"].push_back(
-        {{"name", gain.name}, {"unit", gain.unit}, {"value", json_number(gain.value)}});
-  }
-  return json;
+  const auto shaft = static_cast<std::size_t>(conversion.controller.shaft);
+  return ConvertedFirmware{.name = facts.name,
+                           .source = facts.source,
+                           .left_out = facts.left_out,
+                           .shaft = find_parameter("controller.shaft")->choices[shaft],
+                           .gains = conversion.gains};
 }
 
 }  // namespace
@@ -308,30 +287,24 @@ std::string show_text(const Drive& drive) {
   return remark + further_remarks(drive) + to_toml(drive);
 }
 
-std::string show_json(const Drive& drive, const Provenance& provenance) {
-  Json json = json_head("show", drive, provenance);
-  json["normal_form"] = nullptr;
-  json["linear_loop"] = nullptr;
+ShownDrive shown_drive(const Drive& drive, const Provenance& provenance) {
+  ShownDrive shown{.drive = drive,
+                   .gains = placed_gains(drive),
+                   .firmware = converted_firmware(drive),
+                   .notes = notes_on(drive),
+                   .provenance = provenance};
   if (const auto closed = proportional_servo(drive)) {
-    json["normal_form"] = json_normal_form(closed->servo, closed->natural_frequency);
+    const NormalizedServo& servo = closed->servo;
+    shown.normal_form = {.damping = servo.damping,
+                         .inertia_ratio = servo.inertia_ratio,
+                         .friction_ratio = servo.friction_ratio,
+                         .backlash = servo.backlash,
+                         .restitution = servo.restitution,
+                         .natural_frequency = closed->natural_frequency};
   } else {
-    const drive::TimeScales scales = drive::time_scales(reduce(drive));
-    json["linear_loop"] = {{"slowest_swing", json_number(scales.swing)},
-                           {"settling", json_number(scales.settling)}};
+    shown.linear_loop = drive::time_scales(reduce(drive));
   }
-  json["gains"] = Json::array();
-  for (const PlacedGain& gain : placed_gains(drive)) {
-    json["gains"].push_back({{"path", gain.path},
-                             {"unit", gain.unit},
-                             {"at_joint", json_number(gain.at_joint)},
-                             {"at_motor", json_number(gain.at_motor)}});
-  }
-  json["firmware"] = firmware_json(drive);
-  json["notes"] = Json::array();
-  for (const Note& note : notes_on(drive)) {
-    json["notes"].push_back({{"code", note.code}, {"text", note.text}});
-  }
-  return json.dump(2) + "\n";
+  return shown;
 }
 
 }  // namespace gearlash

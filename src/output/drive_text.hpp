@@ -1,12 +1,17 @@
 // Writing a drive as TOML that reads back as the same drive, and as JSON by path.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "gearlash/answer.hpp"
 #include "gearlash/drive.hpp"
 #include "gearlash/tolerance.hpp"
+#include "general/assemble/time_scale.hpp"
+#include "model/firmware.hpp"
+#include "model/gains.hpp"
 #include "output/report_units.hpp"
 
 namespace gearlash {
@@ -18,22 +23,30 @@ std::string to_toml(const TolerancedDrive& drive);  ///< see gearlash/output.hpp
 /// The same without parameters that have the value of another one, so that they still follow it.
 std::string given_toml(const TolerancedDrive& drive);
 
-/// The start of every JSON answer: schema "gearlash/NAME/2", version, command and units.
-nlohmann::ordered_json json_head(const char* name, const Provenance& provenance);
-/// The same with the drive and the names of the defaults taken.
-nlohmann::ordered_json json_head(const char* name, const Drive& drive,
-                                 const Provenance& provenance);
-
 /// The output of `gearlash show`. Text is the TOML, preceded by remarks on the normal form or the
-/// speed of the linear loop. JSON follows docs/schemas/show.schema.json. Both end with a newline.
+/// speed of the linear loop. JSON is that of ShownDrive. Both end with a newline.
 std::string show_text(const Drive& drive);
 std::string show_json(const Drive& drive, const Provenance& provenance);
 
-/// {"motor.inertia": 0.0002, "controller.kind": "PID", …}: every parameter of the drive, in SI;
-/// null for one that is not given and has no default.
-nlohmann::ordered_json drive_json(const Drive& drive);
+/// The registers of a firmware as a controller in SI units.
+struct ConvertedFirmware {
+  std::string_view name{};             ///< the firmware's
+  std::string_view source{};           ///< the title of its manual
+  std::string_view left_out{};         ///< what it does and the model does not
+  std::string_view shaft{};            ///< controller.shaft
+  std::vector<ConvertedGain> gains{};  ///< of the controller
+};
 
-/// The paths of the parameters with default values.
-std::vector<std::string> defaults_taken(const Drive& drive);
+/// "gearlash/show/3": a drive with all its parameters.
+struct ShownDrive {
+  Drive drive{};                                   ///< its parameters
+  std::optional<NormalFormNumbers> normal_form{};  ///< the servo of 1960 that it is
+  std::optional<drive::TimeScales> linear_loop{};  ///< of a drive that has no normal form
+  std::vector<PlacedGain> gains{};                 ///< of a drive with a gear ratio, at both shafts
+  std::optional<ConvertedFirmware> firmware{};     ///< of a drive that has one
+  std::vector<Note> notes{};                       ///< what a reader should know
+  Provenance provenance{};                         ///< how it was made
+};
+ShownDrive shown_drive(const Drive& drive, const Provenance& provenance);
 
 }  // namespace gearlash

@@ -5,7 +5,7 @@
 #include "gearlash/parameter.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/grid_table.hpp"
-#include "output/json_values.hpp"
+#include "output/json_writer.hpp"
 #include "question/family/evaluation.hpp"
 
 namespace gearlash {
@@ -46,9 +46,8 @@ std::string spacing_of(const Axis& axis) { return axis.logarithmic ? "logarithmi
 
 std::vector<FixedNumber> fixed_numbers(const Grid& grid) {
   std::vector<FixedNumber> fixed;
-  const Json parameters = fixed_parameters(grid);  // a variable, because items() refers to it
-  for (const auto& [path, value] : parameters.items()) {
-    if (!value.is_number() && value != "inf") continue;
+  for (const auto& [path, value] : fixed_parameters(grid)) {
+    if (!std::holds_alternative<double>(value)) continue;
     fixed.push_back({named_parameter(Axis{.path = path}, grid.drive), get(grid.drive, path)});
   }
   return fixed;
@@ -62,7 +61,7 @@ std::vector<std::pair<std::string, std::string>> attributes_of_file(const GridCo
       {"source", "gearlash " + contents.provenance.version},
       {"history", contents.provenance.command},
       {"certainty", certainty_of(grid)},
-      {"drive", fixed_parameters(grid).dump()},
+      {"drive", json_of(fixed_parameters(grid))},
       {"comment", is_normalized(grid.drive)
                       ? "SI units, with an undamped natural frequency of 1 rad/s and a loop "
                         "stiffness of 1 N m/rad."

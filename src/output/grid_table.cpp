@@ -4,57 +4,29 @@
 #include <cmath>
 
 #include "output/csv_table.hpp"
-#include "output/drive_text.hpp"
-#include "output/json_values.hpp"
 #include "question/map/hunting_boundary.hpp"
 
 namespace gearlash {
 namespace {
 
-/// "[[[x, y], …], …]" with one line for each curve.
-void write_curves(const std::vector<MapCurve>& curves, const TextSink& sink) {
-  sink("[");
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    sink(i == 0 ? "\n    [" : ",\n    [");
-    for (std::size_t j = 0; j < curves[i].size(); ++j) {
-      const MapPoint& point = curves[i][j];
-      sink((j == 0 ? "" : ", ") + Json({point.x, point.y}).dump());
-    }
-    sink("]");
+ByName<ParameterValue> without(ByName<ParameterValue> values, const std::vector<Axis>& axes,
+                               const Drive& drive) {
+  for (const Axis& axis : axes) {
+    const Parameter* parameter = parameter_of(axis, drive);
+    if (parameter == nullptr || axis.path.find('[') != std::string::npos) continue;
+    std::erase_if(values, [&](const auto& one) { return one.first == parameter->path; });
   }
-  sink(curves.empty() ? "]" : "\n  ]");
+  return values;
 }
 
-void write_regions(const std::vector<MapRegion>& regions, const TextSink& sink) {
-  sink(",\n  \"regions\": [");
-  for (std::size_t i = 0; i < regions.size(); ++i) {
-    const Json kind = std::string(name_of(regions[i].kind));
-    sink((i == 0 ? "{\"kind\": " : ", {\"kind\": ") + kind.dump() + ", \"outlines\": ");
-    write_curves(regions[i].outlines, sink);
-    sink("}");
+GridAxis document_of(const Axis& axis, const Drive& drive) {
+  GridAxis shown{
+      .path = axis.path, .unit = unit_of(axis, drive), .is_logarithmic = axis.logarithmic};
+  for (const double value : axis.values) {
+    shown.unit.empty() ? shown.values.emplace_back(text_of(axis, drive, value))
+                       : shown.values.emplace_back(value);
   }
-  sink("]");
-}
-
-/// "[1, null, …]".
-template <class Values, class Convert>
-void write_list(const Values& values, const Convert& convert, const TextSink& sink) {
-  sink("[");
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    sink((i == 0 ? "" : ", ") + Json(convert(values[i])).dump());
-  }
-  sink("]");
-}
-
-Json json_axes(const Grid& grid) {
-  return json_list(grid.axes, [&](const Axis& axis) {
-    const std::string unit = unit_of(axis, grid.drive);
-    const auto json_of = [&](double value) { return json_value(axis, grid.drive, value); };
-    return Json{{"path", axis.path},
-                {"unit", unit.empty() ? Json(nullptr) : Json(unit)},
-                {"spacing", axis.logarithmic ? "logarithmic" : "linear"},
-                {"values", json_list(axis.values, json_of)}};
-  });
+  return shown;
 }
 
 std::vector<Quantity> quantities_of(const Table& table) {
@@ -64,24 +36,6 @@ std::vector<Quantity> quantities_of(const Table& table) {
     if (is_number && table.has(info.quantity)) found.push_back(info.quantity);
   }
   return found;
-}
-
-void write_columns(const GridTable& of, const TextSink& sink) {
-  const Table& table = of.table;
-  sink("{\n    \"verdict\": ");
-  write_list(
-      table.verdicts(), [](Verdict verdict) { return name_of(verdict); }, sink);
-  if (of.target) {
-    sink(",\n    \"target\": ");
-    write_list(
-        of.kinds, [](PlaceKind kind) { return std::string(name_of(kind)); }, sink);
-  }
-  for (const QuantityInfo& info : quantities()) {
-    if (info.kind != QuantityKind::number) continue;
-    sink(",\n    \"" + std::string(info.name) + "\": ");
-    table.has(info.quantity) ? write_list(table[info.quantity], json_number, sink) : sink("null");
-  }
-  sink("\n  }");
 }
 
 }  // namespace
@@ -123,15 +77,8 @@ std::string certainty_of(const Grid& grid) {
                          : plastic;
 }
 
-Json fixed_parameters(const Grid& grid) {
-  Json drive = drive_json(grid.drive);
-  for (const Axis& axis : grid.axes) {
-    const Parameter* parameter = parameter_of(axis, grid.drive);
-    if (parameter != nullptr && axis.path.find('[') == std::string::npos) {
-      drive.erase(std::string(parameter->path));
-    }
-  }
-  return drive;
+ByName<ParameterValue> fixed_parameters(const Grid& grid) {
+  return without(parameter_values(grid.drive), grid.axes, grid.drive);
 }
 
 void write_grid_csv(const GridTable& table, const TextSink& sink) {
@@ -157,33 +104,27 @@ void write_grid_csv(const GridTable& table, const TextSink& sink) {
   }
 }
 
-void write_grid_json(const GridTable& table, const std::string& verb, const TextSink& sink) {
-  const Grid& grid = table.grid;
-  Json fixed = fixed_parameters(grid);
-  Json header = json_head(verb.c_str(), grid.drive, table.provenance);
-  Json defaults = Json::array();
-  for (const Json& path : header["defaults"]) {
-    if (fixed.contains(path.get<std::string>())) defaults.push_back(path);
+GridDocument document_of(const GridTable& of) {
+  const Grid& grid = of.grid;
+  GridDocument document{.certainty = certainty_of(grid),
+                        .drive = fixed_parameters(grid),
+                        .target_text = of.target_text,
+                        .verdicts = of.table.verdicts(),
+                        .kinds = of.kinds,
+                        .hunting_boundary = of.hunting_boundary,
+                        .dissipative_boundary = of.dissipative_boundary,
+                        .regions = of.regions,
+                        .provenance = of.provenance};
+  for (const Axis& axis : grid.axes) document.axes.push_back(document_of(axis, grid.drive));
+  for (const std::string& path : defaults_taken(grid.drive)) {
+    const auto has_path = [&](const auto& one) { return one.first == path; };
+    const auto& fixed = document.drive;
+    if (std::any_of(fixed.begin(), fixed.end(), has_path)) document.defaults.push_back(path);
   }
-  header["certainty"] = certainty_of(grid);
-  header["drive"] = std::move(fixed);
-  header["defaults"] = std::move(defaults);
-  header["axes"] = json_axes(grid);
-  if (table.target) header["target"] = table.target_text;
-  std::string text = header.dump(2);
-  text.resize(text.rfind("\n}"));  // reopens the object: the columns follow, number by number
-  sink(text + ",\n  \"columns\": ");
-  write_columns(table, sink);
-  if (table.hunting_boundary) {
-    sink(",\n  \"hunting_boundary\": ");
-    write_curves(*table.hunting_boundary, sink);
+  for (const Quantity quantity : quantities_of(of.table)) {
+    document.columns.emplace_back(name_of(quantity), of.table[quantity]);
   }
-  if (table.dissipative_boundary) {
-    sink(",\n  \"dissipative_boundary\": ");
-    write_curves(*table.dissipative_boundary, sink);
-  }
-  if (table.regions) write_regions(*table.regions, sink);
-  sink("\n}\n");
+  return document;
 }
 
 }  // namespace gearlash

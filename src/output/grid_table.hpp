@@ -1,11 +1,12 @@
 // The answers of a grid as CSV and JSON.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "output/json_writer.hpp"
 #include "output/output_file.hpp"
 #include "output/report_units.hpp"
 #include "question/map/map_regions.hpp"
@@ -39,16 +40,40 @@ void add_borders(GridTable& table, Progress& progress = no_progress());
 /// the drives that each applies to.
 std::string certainty_of(const Grid& grid);
 
-/// drive_json() without the parameters of the axes.
-nlohmann::ordered_json fixed_parameters(const Grid& grid);
+/// parameter_values() without the parameters of the axes.
+ByName<ParameterValue> fixed_parameters(const Grid& grid);
 
 /// One line for each point: the values of the axes, the verdict, whether a target is met, and every
 /// quantity, in SI; empty if not known.
 void write_grid_csv(const GridTable& table, const TextSink& sink);
 
-/// The JSON of docs/schemas: the axes, and each quantity as an array with the last axis fastest,
-/// null if not known. A map's boundary is a list of curves, each a list of points [x, y]. `verb`:
-/// "chart" or "map".
-void write_grid_json(const GridTable& table, const std::string& verb, const TextSink& sink);
+struct GridAxis {
+  std::string path{};                    ///< of its parameter
+  std::string unit{};                    ///< SI; "1" of a bare number, empty of words
+  bool is_logarithmic = false;           ///< how its values are spaced
+  std::vector<ParameterValue> values{};  ///< every one, in order
+};
+
+/// "gearlash/grid/3": the answers of a chart or a map, in lists with a value for each point.
+struct GridDocument {
+  std::string certainty{};              ///< of the verdicts
+  ByName<ParameterValue> drive{};       ///< the parameters that do not vary, by their paths
+  std::vector<std::string> defaults{};  ///< the paths of those that have their default value
+  std::vector<GridAxis> axes{};         ///< what varies, the last axis fastest
+  std::string target_text{};            ///< of a map that asks for one; else empty
+  std::span<const Verdict> verdicts{};  ///< of each point
+  std::span<const PlaceKind> kinds{};   ///< whether it meets the target, of a map that asks
+  ByName<std::span<const double>>
+      columns{};  ///< each quantity that a drive of the grid has; NaN: not known
+  std::optional<std::vector<MapCurve>> hunting_boundary{};  ///< of a map: where hunting ends
+  std::optional<std::vector<MapCurve>>
+      dissipative_boundary{};                       ///< of a map: beyond it none can hunt
+  std::optional<std::vector<MapRegion>> regions{};  ///< of a map: of kinds of motion
+  Provenance provenance{};                          ///< how it was made
+};
+/// The table must outlive it.
+GridDocument document_of(const GridTable& table);
+
+void write_grid_json(const GridTable& table, const TextSink& sink);
 
 }  // namespace gearlash

@@ -5,8 +5,6 @@
 
 #include "base/decimal_multiples.hpp"
 #include "output/csv_table.hpp"
-#include "output/drive_text.hpp"
-#include "output/json_values.hpp"
 
 namespace gearlash {
 namespace {
@@ -25,65 +23,11 @@ void for_each_sample(const MotionReport& report, Progress& progress, const Write
   }
 }
 
-Json json_shafts(const Shafts& shafts) {
-  return {{"load_position", json_number(shafts.load_position)},
-          {"load_speed", json_number(shafts.load_speed)},
-          {"motor_position", json_number(shafts.motor_position)},
-          {"motor_speed", json_number(shafts.motor_speed)}};
-}
-
-Json json_event(const MotionEvent& event) {
-  return {{"time", json_number(event.time)},     {"what", event.what},
-          {"mode_after", event.mode_after},      {"energy_lost", json_optional(event.energy_lost)},
-          {"before", json_shafts(event.before)}, {"after", json_shafts(event.after)}};
-}
-
-Json json_touch(const MotionTouch& touch) {
-  return {{"time", json_number(touch.time)},
-          {"what", touch.what},
-          {"within", json_optional(touch.within)}};
-}
-
-Json json_energy(const Motion& motion) {
-  const std::optional<EnergyBooks> energy = motion.energy();
-  if (!energy) return nullptr;
-  return {{"stored_at_start", json_number(energy->stored_at_start)},
-          {"supplied", json_number(energy->supplied)},
-          {"stored", json_number(energy->stored)},
-          {"motor_friction", json_number(energy->motor_friction)},
-          {"load_friction", json_number(energy->load_friction)},
-          {"impacts", json_number(energy->impacts)}};
-}
-
 /// The start, before any event at time 0.
 Shafts start_of(const Motion& motion) {
   const auto events = motion.events();
   const bool is_at_once = !events.empty() && events.front().time == 0.0;
   return is_at_once ? events.front().before : motion.at(0.0).shafts;
-}
-
-/// The fields without a table.
-Json json_header(const MotionReport& report) {
-  const Motion& motion = report.motion;
-  Json json = json_head("simulate", report.drive, report.provenance);
-  json["engine"] = name_of(motion.engine());
-  json["start"] = json_shafts(start_of(motion));
-  json["until"] = json_number(report.until);
-  json["stopped"] = {{"reason", name_of(motion.stop())},
-                     {"time", json_number(motion.end_time())},
-                     {"text", motion.stop_text()}};
-  json["energy"] = json_energy(motion);
-  json["touches"] = json_list(motion.touches(), &json_touch);
-  return json;
-}
-
-Json json_row(const MotionSample& sample) {
-  const Shafts& shafts = sample.shafts;
-  return {json_number(sample.time),        json_number(shafts.load_position),
-          json_number(shafts.load_speed),  json_number(shafts.motor_position),
-          json_number(shafts.motor_speed), json_number(sample.motor_torque),
-          json_number(sample.reference),   json_number(sample.load_torque),
-          std::string(sample.mode)};
 }
 
 }  // namespace
@@ -119,25 +63,20 @@ void write_events_csv(const MotionReport& report, const TextSink& sink) {
   }
 }
 
-void write_motion_json(const MotionReport& report, const TextSink& sink, Progress& progress) {
-  std::string header = json_header(report).dump(2);
-  header.resize(header.rfind("\n}"));  // reopens the object: the tables follow, row by row
-  sink(header + ",\n  \"events\": [");
-  const char* separator = "\n    ";
-  for (const MotionEvent& event : report.motion.events()) {
-    sink(separator + json_event(event).dump());
-    separator = ",\n    ";
-  }
-  sink(
-      "\n  ],\n  \"samples\": {\n    \"columns\": [\"time\", \"load_position\", \"load_speed\", "
-      "\"motor_position\", \"motor_speed\", \"motor_torque\", \"reference\", \"load_torque\", "
-      "\"mode\"],\n    \"rows\": [");
-  separator = "\n      ";
-  for_each_sample(report, progress, [&](const MotionSample& sample) {
-    sink(separator + json_row(sample).dump());
-    separator = ",\n      ";
-  });
-  sink("\n    ]\n  }\n}\n");
+MotionDocument document_of(const MotionReport& report, Progress& progress) {
+  const Motion& motion = report.motion;
+  return {.drive = report.drive,
+          .engine = motion.engine(),
+          .start = start_of(motion),
+          .until = report.until,
+          .stop = motion.stop(),
+          .end_time = motion.end_time(),
+          .stop_text = motion.stop_text(),
+          .energy = motion.energy(),
+          .touches = motion.touches(),
+          .events = motion.events(),
+          .samples = {[&](const auto& write) { for_each_sample(report, progress, write); }},
+          .provenance = report.provenance};
 }
 
 }  // namespace gearlash

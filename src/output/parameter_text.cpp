@@ -5,6 +5,15 @@
 
 namespace gearlash {
 
+ParameterFacts facts_of(const Drive& drive, const std::string& path) {
+  const Axis axis{.path = path};
+  const Parameter& parameter = *parameter_of(axis, drive);
+  return {.path = path,
+          .unit = unit_of(axis, drive),
+          .meaning = std::string(parameter.meaning),
+          .choices = parameter.choices};
+}
+
 ParameterText::ParameterText(const Drive& drive, std::string parameter, const AngleUnit& angle)
     : drive_(drive), axis_{.path = std::move(parameter)}, unit_(unit_of(axis_, drive)) {
   if (unit_ == "rad") {

@@ -2,12 +2,24 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "gearlash/answer.hpp"
 #include "output/report_units.hpp"
 #include "question/axis.hpp"
 
 namespace gearlash {
+
+/// What a reader of numbers knows of a parameter.
+struct ParameterFacts {
+  std::string path{};                       ///< as its author wrote it
+  std::string unit{};                       ///< SI; "1" of a bare number, empty of a word
+  std::string meaning{};                    ///< one sentence, without a full stop
+  std::vector<std::string_view> choices{};  ///< of a word, whose values are their indices
+};
+/// Precondition: the drive has the parameter.
+ParameterFacts facts_of(const Drive& drive, const std::string& path);
 
 /// Angles are in the author's unit, other numbers in SI unless show_in() says otherwise, choices
 /// are words. Precondition: the drive has the parameter, and outlives this.

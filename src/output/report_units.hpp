@@ -10,8 +10,8 @@ namespace gearlash {
 
 /// How a file was made, with enough detail to make it again.
 struct Provenance {
-  std::string command = {};  ///< on one line, as typed into a shell
-  std::string version = {};  ///< of Gearlash
+  std::string command{};  ///< on one line, as typed into a shell
+  std::string version{};  ///< of Gearlash
 };
 
 /// Of a result that a person reads beside others.

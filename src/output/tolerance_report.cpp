@@ -9,8 +9,6 @@
 #include "base/special_numbers.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/columns.hpp"
-#include "output/drive_text.hpp"
-#include "output/json_values.hpp"
 
 namespace gearlash {
 namespace {
@@ -242,71 +240,6 @@ std::string counts_text(const ToleranceReport& report) {
   return wrapped(text);
 }
 
-Json json_estimate(const std::optional<Estimate>& estimate) {
-  return {{"value", estimate ? json_number(estimate->value) : Json(nullptr)},
-          {"standard_error", estimate ? json_optional(estimate->standard_error) : Json(nullptr)}};
-}
-
-Json json_quantiles(const std::vector<QuantileEstimate>& quantiles) {
-  return json_list(quantiles, [](const QuantileEstimate& quantile) {
-    Json entry = {{"share", json_number(quantile.share)}};
-    entry.update(json_estimate(quantile.value));
-    return entry;
-  });
-}
-
-Json json_indices(const std::optional<SensitivityIndices>& indices) {
-  using Found = std::optional<Estimate>;
-  return {{"first_order", json_estimate(indices ? Found(indices->first_order) : Found())},
-          {"total", json_estimate(indices ? Found(indices->total) : Found())}};
-}
-
-Json json_parameters(const ToleranceReport& report) {
-  Json parameters = Json::array();
-  for (std::size_t i = 0; i < report.drive.varied.size(); ++i) {
-    const ParameterTolerance& varied = report.drive.varied[i];
-    const NumberSensitivity indices = report.sensitivities.numbers.empty()
-                                          ? NumberSensitivity{}
-                                          : report.sensitivities.numbers[i];
-    const WorstNumber worst =
-        report.worst.numbers.empty() ? WorstNumber{"", not_a_number} : report.worst.numbers[i];
-    parameters.push_back(
-        {{"parameter", varied.path},
-         {"unit", unit_of(report.drive.nominal, varied.path)},
-         {"distribution", text_of(varied.distribution)},
-         {"mean", json_number(mean_of(varied.distribution))},
-         {"standard_deviation", json_number(standard_deviation_of(varied.distribution))},
-         {"indices_of_amplitude", json_indices(indices.of_amplitude)},
-         {"indices_of_hunting", json_indices(indices.of_hunting)},
-         {"worst", {{"value", json_number(worst.value)}, {"place", name_of(worst.place)}}}});
-  }
-  return parameters;
-}
-
-Json json_histogram(const AmplitudeHistogram& histogram) {
-  return {{"edges", json_list(histogram.edges, &json_number)},
-          {"counts", histogram.counts},
-          {"quiet", histogram.quiet},
-          {"unknown", histogram.unknown}};
-}
-
-Json json_backlash(const ToleranceReport& report) {
-  if (!report.backlash) return nullptr;
-  const WidestBacklash& widest = *report.backlash;
-  return {{"demanded_yield", json_number(report.demanded_yield)},
-          {"min", json_number(widest.min)},
-          {"max", json_number(widest.max)},
-          {"yield", json_estimate(widest.yield)},
-          {"uncertainty", json_bounds(widest.uncertainty)}};
-}
-
-Json json_worst(const detail::SampleResult& worst) {
-  return {{"verdict", name_of(worst.verdict)},
-          {"growth_at_rest", json_number(worst.growth_at_rest)},
-          {"amplitude", json_number(worst.amplitude)},
-          {"frequency", json_number(worst.frequency)}};
-}
-
 /// What is known of a study that was stopped.
 std::string stopped_text(const ToleranceReport& report) {
   const ToleranceStudy& study = report.study;
@@ -344,35 +277,12 @@ std::string tolerance_text(const ToleranceReport& report) {
          backlash_text(report) + "\n" + counts_text(report);
 }
 
-std::string tolerance_json(const ToleranceReport& report) {
-  const ToleranceStudy& study = report.study;
-  const bool has_target = !report.target_text.empty();
-  Json json = json_head("tolerance", report.drive.nominal, report.provenance);
-  json["sampling"] = {{"points", study.sampling.points},
-                      {"replicates", study.sampling.replicates},
-                      {"seed", study.sampling.seed}};
-  json["amplitude_of"] = report.amplitude == Quantity::motor_amplitude ? "motor" : "load";
-  json["hunting"] = json_estimate(study.hunting);
-  json["target"] = has_target ? Json(report.target_text) : Json(nullptr);
-  json["yield"] = has_target ? json_estimate(study.yield) : Json(nullptr);
-  json["mean_amplitude"] = json_estimate(study.mean_amplitude);
-  json["amplitude"] = json_quantiles(study.amplitude);
-  json["amplitude_of_hunting"] = json_quantiles(study.amplitude_of_hunting);
-  json["frequency"] = json_quantiles(study.frequency);
-  json["histogram"] = json_histogram(study.histogram);
-  json["parameters"] = json_parameters(report);
-  json["worst"] = json_worst(report.worst.result);
-  json["proved"] = {{"bound", json_optional(report.proved.bound)},
-                    {"reason", report.proved.bound ? Json(nullptr) : Json(report.proved.reason)},
-                    {"largest_of_single_drives", json_optional(report.proved.largest)},
-                    {"boxes", report.proved.parts}};
-  json["backlash"] = json_backlash(report);
-  json["undecided"] = study.undecided;
-  json["unknown_amplitudes"] = study.unknown_amplitudes;
-  json["refused"] = study.refused;
-  json["answered"] = study.answered;
-  json["stopped"] = report.stopped;
-  return json.dump(2) + "\n";
+std::vector<Moments> ToleranceReport::moments() const {
+  std::vector<Moments> all;
+  for (const ParameterTolerance& one : drive.varied) {
+    all.push_back({one.path, mean_of(one.distribution), standard_deviation_of(one.distribution)});
+  }
+  return all;
 }
 
 }  // namespace gearlash

@@ -8,7 +8,6 @@
 
 #include "output/columns.hpp"
 #include "output/drive_text.hpp"
-#include "output/json_values.hpp"
 #include "output/parameter_text.hpp"
 
 namespace gearlash {
@@ -95,7 +94,7 @@ std::string limiting_text(const TuneReport& report) {
 std::string advice_text(const TuneReport& report) {
   if (report.tuned.meets) return "";
   std::string text;
-  if (const auto why = why_integral_action_hunts(present_drive(report))) text = *why + ". ";
+  if (const auto why = report.why_integral_action_hunts()) text = *why + ". ";
   if (const std::optional<TunedDrive>& without = report.without_integral) {
     text += "Without integral action: " + count_text(*without) + " the target" +
             reached_text(report, *without);
@@ -124,39 +123,6 @@ std::string effort_text(const TuneReport& report) {
 
 std::string paragraph(const std::string& text) { return text.empty() ? "" : wrapped(text) + "\n"; }
 
-Json json_tuned(const Answer& answer) {
-  return {{"verdict", name_of(answer.verdict)},
-          {"amplitude", json_optional(answer.value(Quantity::amplitude))},
-          {"motor_amplitude", json_optional(answer.value(Quantity::motor_amplitude))},
-          {"frequency", json_optional(answer.value(Quantity::frequency))},
-          {"static_error", json_optional(answer.value(Quantity::static_error))}};
-}
-
-Json json_limiting(const TuneReport& report) {
-  if (!report.tuned.limiting) return nullptr;
-  Json values = Json::object();
-  for (std::size_t i = 0; i < report.tuned.limiting->values.size(); ++i) {
-    values[report.task.series.varied[i].path] = json_number(report.tuned.limiting->values[i]);
-  }
-  return {{"values", values}, {"performance", json_tuned(report.tuned.limiting->answer)}};
-}
-
-/// `axes`: those that were tuned.
-Json json_tuned(const TuneReport& report, const std::vector<Axis>& axes, const TunedDrive& tuned) {
-  Json values = Json::object();
-  for (std::size_t i = 0; i < tuned.values.size(); ++i) {
-    values[axes[i].path] = json_number(tuned.values[i]);
-  }
-  const double unit = report.task.aim == Aim::bandwidth ? turn : 1.0;
-  return {{"values", values},
-          {"meets", tuned.meets},
-          {"units", tuned.units},
-          {"met", tuned.met},
-          {"undecided", tuned.undecided},
-          {"reached", json_number(tuned.reached / unit)},
-          {"by_derivatives", tuned.by_derivatives}};
-}
-
 }  // namespace
 
 const char* name_of(Aim aim) {
@@ -180,25 +146,8 @@ std::string tune_text(const TuneReport& report) {
          wrapped(effort_text(report));
 }
 
-std::string tune_json(const TuneReport& report) {
-  Json json = json_head("tune", present_drive(report), report.provenance);
-  json["target"] = report.target_text;
-  json["aim"] = name_of(report.task.aim);
-  json["share"] = json_number(report.task.share);
-  json["present"] = json_tuned(report.present);
-  json["nominal"] = json_tuned(report.nominal);
-  json["tuned"] = json_tuned(report, report.task.tuned, report.tuned);
-  json["limiting"] = json_limiting(report);
-  const std::optional<std::string> why = why_integral_action_hunts(present_drive(report));
-  json["why_integral_action_hunts"] = why ? Json(*why) : Json(nullptr);
-  json["without_integral"] = report.without_integral
-                                 ? json_tuned(report, without_integral_action(report.task)->tuned,
-                                              *report.without_integral)
-                                 : Json(nullptr);
-  json["rounds"] = report.tuned.rounds;
-  json["analyses"] = report.tuned.analyses;
-  json["stopped"] = report.tuned.stopped;
-  return json.dump(2) + "\n";
+std::optional<std::string> TuneReport::why_integral_action_hunts() const {
+  return gearlash::why_integral_action_hunts(present_drive(*this));
 }
 
 std::string tuned_toml(const TuneReport& report) {

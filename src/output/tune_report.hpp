@@ -9,23 +9,27 @@
 
 namespace gearlash {
 
+/// "gearlash/tune/3": the best values of several parameters.
 struct TuneReport {
-  TuneTask task{};
+  TuneTask task{};            ///< what was asked
   std::string target_text{};  ///< as its author wrote it, or what was taken
-  TunedDrive tuned{};
-  Answer nominal{};  ///< of the nominal drive with the tuned values
-  Answer present{};  ///< of it as it is
+  TunedDrive tuned{};         ///< the answer
+  Answer nominal{};           ///< of the nominal drive with the tuned values
+  Answer present{};           ///< of it as it is
   /// The same task without integral action, where nothing met the target with it.
   std::optional<TunedDrive> without_integral{};
-  AngleUnit angle{};  ///< of text
-  Provenance provenance{};
+  AngleUnit angle{};        ///< of text
+  Provenance provenance{};  ///< how it was made
+
+  [[nodiscard]] std::optional<std::string> why_integral_action_hunts()
+      const;  ///< whatever the gains; empty where it need not
 };
 
 /// The tuned values, how many units they hold for, the unit that limits, and what to give up where
 /// nothing was found. Ends with a newline.
 std::string tune_text(const TuneReport& report);
 
-/// "gearlash/tune/2" (docs/schemas), in SI. Ends with a newline.
+/// The report as JSON, in SI. Ends with a newline.
 std::string tune_json(const TuneReport& report);
 
 /// The file of the tuned drive, with a remark on how it was found.

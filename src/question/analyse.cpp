@@ -24,7 +24,6 @@
 #include "question/loop/energy/computed_rest.hpp"
 #include "question/loop/energy/mesh_torque.hpp"
 #include "question/loop/linear_loop.hpp"
-#include "question/repetition.hpp"
 #include "question/step_response.hpp"
 
 namespace gearlash {
@@ -230,7 +229,9 @@ Verdict verdict_of(const drive::AttractorSearch& search, const drive::ReducedDri
   const bool is_open_at_large = !search.is_complete || few * undecided > search.outcomes.size();
   if (swings && is_driven(reduced)) return Verdict::forced;
   if (swings && rests) return Verdict::hunts_if_disturbed;
-  if (cycles || std::any_of(motions.begin(), motions.end(), repeats)) return Verdict::hunts;
+  if (cycles || std::any_of(motions.begin(), motions.end(),
+                            [](const IrregularMotion& motion) { return motion.repeats(); }))
+    return Verdict::hunts;
   if (swings) return Verdict::hunts_irregularly;
   // An undecided start may stay bounded, or hunt.
   if (diverges) return rests || is_open ? Verdict::runs_away_if_disturbed : Verdict::runs_away;

@@ -35,7 +35,7 @@ TEST(ChartCommand, CurvesAreSingleCalls) {
                                 .friction_ratio = 0.1,
                                 .backlash = 0.3};
     const LimitCycleAnalysis single = analyse_limit_cycles(servo);
-    EXPECT_EQ(columns["verdict"][i], name_of(single.verdict));
+    EXPECT_EQ(chart["verdicts"][i], name_of(single.verdict));
     const double amplitude = columns["amplitude"][i];
     if (single.cycles.empty()) {
       EXPECT_EQ(amplitude, 0.0);

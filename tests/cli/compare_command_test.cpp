@@ -33,7 +33,7 @@ json compared(const Words& words) {
 
 Words names_of(const json& printed) {
   Words names;
-  for (const json& one : printed["cases"]) names.push_back(one["name"]);
+  for (const json& one : printed["drives"]) names.push_back(one["name"]);
   return names;
 }
 
@@ -42,19 +42,21 @@ void expect_those_of_limit_cycle(const Words& words, const std::vector<Words>& a
   const json printed = compared(words);
   const Outcome brief = run_tool(joined(joined({"compare"}, words), {"--brief"}));
   const Words headlines = test::lines_of(brief.out);
-  ASSERT_EQ(printed["cases"].size(), alone.size());
+  ASSERT_EQ(printed["drives"].size(), alone.size());
   ASSERT_EQ(headlines.size(), alone.size()) << brief.out;
   for (std::size_t i = 0; i < alone.size(); ++i) {
     const Words command = joined({"limit-cycle"}, alone[i]);
     SCOPED_TRACE(testing::PrintToString(command));
-    json expected = json::parse(run_tool(joined(command, {"--format", "json"})).out);
-    json found = printed["cases"][i]["limit_cycle"];
-    expected.erase("command");
-    found.erase("command");
-    EXPECT_EQ(found, expected);
+    const json expected = json::parse(run_tool(joined(command, {"--format", "json"})).out);
+    // compare asks for the linear loop and the step besides.
+    json found = printed["drives"][i]["answer"];
+    for (const char* besides : {"loop", "step", "values"})
+      found[besides] = expected["answer"][besides];
+    EXPECT_EQ(found, expected["answer"]);
+    EXPECT_EQ(printed["drives"][i]["drive"], expected["drive"]);
     const std::string headline = run_tool(joined(command, {"--brief"})).out;
     EXPECT_THAT(headlines[i] + "\n", testing::EndsWith("  " + headline));
-    EXPECT_THAT(headlines[i], HasSubstr(printed["cases"][i]["name"].get<std::string>()));
+    EXPECT_THAT(headlines[i], HasSubstr(printed["drives"][i]["name"].get<std::string>()));
   }
 }
 
@@ -71,9 +73,9 @@ TEST(RegressionCompareCommand, ProvesWhatLimitCycleProves) {
       proved, {joined(proved, {"--sensor", "load"}), joined(proved, {"--sensor", "motor"}),
                joined(proved, {"--sensor", "both"})});
   const json printed = compared(proved);
-  for (const json& one : printed["cases"]) {
-    EXPECT_EQ(one["limit_cycle"]["verdict"], "cannot hunt") << one["name"];
-    EXPECT_THAT(one["limit_cycle"]["certainty"]["verdict"].get<std::string>(),
+  for (const json& one : printed["drives"]) {
+    EXPECT_EQ(one["answer"]["verdict"], "cannot hunt") << one["name"];
+    EXPECT_THAT(one["answer"]["certainty"].get<std::string>(),
                 testing::AnyOf("enclosed", "theorem"))
         << one["name"];
   }
@@ -97,7 +99,7 @@ TEST(CompareCommand, TakesAnAxisOfTheNormalForm) {
   EXPECT_THAT(names_of(compared({servo, "--x", "damping=0.1,0.9"})), ElementsAre("0.1", "0.9"));
   const Words without = {"--inertia-ratio", "2",   "--friction-ratio", "0.1", "--backlash",
                          "12 arcmin",       "--x", "damping=0.19,0.9"};
-  EXPECT_EQ(compared(without)["cases"][1]["limit_cycle"]["verdict"], "cannot hunt");
+  EXPECT_EQ(compared(without)["drives"][1]["answer"]["verdict"], "cannot hunt");
 }
 
 TEST(CompareCommand, TakesAnAxisOfWordsAndOfNumbers) {
@@ -110,22 +112,22 @@ TEST(CompareCommand, TakesAnAxisOfWordsAndOfNumbers) {
                                     {servo, "--set", "gearbox.backlash=0.15 rad"}});
   const json printed = compared(gap);
   EXPECT_THAT(names_of(printed), ElementsAre("0.05 rad", "0.1 rad", "0.15 rad"));
-  EXPECT_EQ(printed["parameter"], json({{"path", "gearbox.backlash"}, {"unit", "rad"}}));
-  EXPECT_EQ(printed["cases"][2]["value"], 0.15);
+  EXPECT_EQ(printed["axis"]["path"], "gearbox.backlash");
+  EXPECT_EQ(printed["axis"]["values"][2], 0.15);
   // All make the step of the first.
-  EXPECT_EQ(printed["cases"][2]["step_response"]["step"], 0.5);
+  EXPECT_EQ(printed["drives"][2]["answer"]["step"]["step"], 0.5);
 }
 
 TEST(CompareCommand, PutsFilesSideBySide) {
   const Words files = {servo, "examples/dynamixel-joint.toml"};
   expect_those_of_limit_cycle(files, {{files[0]}, {files[1]}});
   EXPECT_THAT(names_of(compared(files)), ElementsAre("elinco-fd162", "dynamixel-joint"));
-  EXPECT_TRUE(compared(files)["parameter"].is_null());
+  EXPECT_TRUE(compared(files)["axis"].is_null());
   const Words changed = joined(files, {"--set", "gearbox.backlash=0.01 rad", "--sensor", "motor"});
   const json printed = compared(changed);
-  for (const json& one : printed["cases"]) {
-    EXPECT_EQ(one["limit_cycle"]["drive"]["gearbox.backlash"], 0.01) << one["name"];
-    EXPECT_EQ(one["limit_cycle"]["drive"]["sensor.position"], "motor") << one["name"];
+  for (const json& one : printed["drives"]) {
+    EXPECT_EQ(one["drive"]["gearbox.backlash"], 0.01) << one["name"];
+    EXPECT_EQ(one["drive"]["sensor.position"], "motor") << one["name"];
   }
 }
 
@@ -150,9 +152,10 @@ TEST(CompareCommand, ShowsTheQuantitiesThatAreAskedFor) {
   EXPECT_THAT(text, HasSubstr("\n  multiplier "));
   EXPECT_THAT(text, HasSubstr("\n  static error (rad) "));
   EXPECT_THAT(text, Not(HasSubstr("bandwidth")));
-  const json values = compared(asked)["cases"][1]["values"];
-  EXPECT_EQ(values.size(), 3U);
-  EXPECT_EQ(values["verdict"], "cannot hunt");
+  const json printed = compared(asked);
+  EXPECT_EQ(printed["quantities"], json({"multiplier", "static_error", "verdict"}));
+  const json values = printed["drives"][1]["answer"]["values"];
+  EXPECT_EQ(printed["drives"][1]["answer"]["verdict"], "cannot hunt");
   EXPECT_NEAR(values["static_error"].get<double>(), 0.05, 1e-12);
   EXPECT_TRUE(values["multiplier"].is_null());
 }
@@ -187,41 +190,41 @@ vel_integrator_gain = 0.32
   std::replace(text.begin(), text.end(), '\n', ' ');
   EXPECT_THAT(text, HasSubstr("Not stable even without the gap: load."));
   EXPECT_THAT(text, HasSubstr("changes the loop stiffness from that with motor: load ×0.125."));
-  const json load = compared(words)["cases"][1];
-  EXPECT_EQ(load["loop"]["stable"], false);
-  EXPECT_TRUE(load["step_response"].is_null());
-  EXPECT_TRUE(load["values"]["overshoot"].is_null());
+  const json load = compared(words)["drives"][1];
+  EXPECT_EQ(load["answer"]["loop"]["is_stable"], false);
+  EXPECT_TRUE(load["answer"]["step"].is_null());
+  EXPECT_TRUE(load["answer"]["values"]["overshoot"].is_null());
 }
 
 /// Behind the gap the axis hunts; before it, the motor stands at the reference and the load
 /// anywhere in the gap.
 TEST(CompareCommand, ThatTheEncoderOnTheMotorEndsTheHuntingOfTheAxis) {
   const json printed = compared({"examples/telescope-axis.toml", "--sensor", "load,motor"});
-  EXPECT_EQ(printed["cases"][0]["limit_cycle"]["verdict"], "hunts");
-  EXPECT_EQ(printed["cases"][1]["limit_cycle"]["verdict"], "comes to rest");
+  EXPECT_EQ(printed["drives"][0]["answer"]["verdict"], "hunts");
+  EXPECT_EQ(printed["drives"][1]["answer"]["verdict"], "comes to rest");
   const double half_gap = 5.0 / 60.0 * std::acos(-1.0) / 180.0;
-  const json& error = printed["cases"][1]["limit_cycle"]["rest"]["error"];
-  EXPECT_NEAR(error[1].get<double>(), half_gap, 1e-3 * half_gap);
-  EXPECT_EQ(error[0].get<double>(), -error[1].get<double>());
+  const json& error = printed["drives"][1]["answer"]["rest"]["error"];
+  EXPECT_NEAR(error["high"].get<double>(), half_gap, 1e-3 * half_gap);
+  EXPECT_EQ(error["low"].get<double>(), -error["high"].get<double>());
   // A step leaves it on one of the faces.
-  EXPECT_NEAR(printed["cases"][1]["step_response"]["final_error"].get<double>(), half_gap,
+  EXPECT_NEAR(printed["drives"][1]["answer"]["step"]["final_error"].get<double>(), half_gap,
               1e-3 * half_gap);
-  EXPECT_NEAR(printed["cases"][0]["step_response"]["final_error"].get<double>(), 0.0,
+  EXPECT_NEAR(printed["drives"][0]["answer"]["step"]["final_error"].get<double>(), 0.0,
               1e-6 * half_gap);
 }
 
 /// Every case has a verdict, from decided starts alone, and a step response to its end.
 void expect_answers(const json& printed) {
   ASSERT_THAT(names_of(printed), ElementsAre("load", "motor", "both"));
-  for (const json& one : printed["cases"]) {
+  for (const json& one : printed["drives"]) {
     SCOPED_TRACE(one["name"]);
-    EXPECT_NE(one["limit_cycle"]["verdict"], "undecided");
-    const json& search = one["limit_cycle"]["search"];
+    EXPECT_NE(one["answer"]["verdict"], "undecided");
+    const json& search = one["answer"]["search"];
     if (search.is_null()) continue;
     for (const json& start : search["starts"]) EXPECT_NE(start["end"], "undecided") << start;
-    EXPECT_EQ(one["loop"]["stable"], true);
-    const json& response = one["step_response"];
-    EXPECT_GT(response["watched"].get<double>(), 0.0);
+    EXPECT_EQ(one["answer"]["loop"]["is_stable"], true);
+    const json& response = one["answer"]["step"];
+    EXPECT_GT(response["until"].get<double>(), 0.0);
     for (const std::string key : {"final_error", "ripple", "overshoot"}) {
       EXPECT_TRUE(response[key].is_number()) << key;
     }
@@ -233,9 +236,9 @@ TEST(CompareCommand, AnswersBeforeAndAfterTheGap) {
   const json printed = compared({"examples/dynamixel-joint.toml"});
   expect_answers(printed);
   const auto step = [&](std::size_t i) {
-    return printed["cases"][i]["encoder_step"].get<double>();
+    return printed["drives"][i]["encoder_step"].get<double>();
   };
-  const double ratio = printed["cases"][0]["limit_cycle"]["drive"]["gearbox.ratio"];
+  const double ratio = printed["drives"][0]["drive"]["gearbox.ratio"];
   EXPECT_NEAR(step(0), ratio * step(1), 1e-12 * step(0));
 }
 
@@ -250,10 +253,10 @@ TEST(CompareCommand, AnswersWithTheGapAndWithoutIt) {
   const json without = with_backlash("0");
   expect_answers(with);
   expect_answers(without);
-  EXPECT_EQ(with["cases"][0]["limit_cycle"]["verdict"], "hunts");
-  for (const json& one : without["cases"]) {
-    EXPECT_EQ(one["values"]["amplitude"], 0.0) << one["name"];
-    EXPECT_TRUE(one["step_response"]["settling_time"].is_number()) << one["name"];
+  EXPECT_EQ(with["drives"][0]["answer"]["verdict"], "hunts");
+  for (const json& one : without["drives"]) {
+    EXPECT_EQ(one["answer"]["values"]["amplitude"], 0.0) << one["name"];
+    EXPECT_TRUE(one["answer"]["step"]["settling_time"].is_number()) << one["name"];
   }
 }
 

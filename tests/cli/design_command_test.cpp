@@ -33,26 +33,27 @@ TEST(DesignCommand, AnswersPutIntoTheDataSheetMeetTheTarget) {
                                 "--parameters", names, "--format", "json"});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto design = nlohmann::json::parse(run.out);
-  EXPECT_EQ(design["met"], false);
+  EXPECT_EQ(design["design"]["met"], "none");
   const double limit = std::acos(-1.0) / 180.0;
   for (std::size_t i = 0; i < std::size(parameters); ++i) {
     const auto& [name, unit] = parameters[i];
     SCOPED_TRACE(name);
-    const auto& answer = design["answers"].at(i);
+    const auto& designed = design["design"]["parameters"].at(i);
+    const auto& answer = designed["values"];
     EXPECT_EQ(answer["parameter"], name);
     ASSERT_FALSE(answer["intervals"].empty());
-    std::vector<std::string> values = {answer["nearest"]["value"].dump()};
+    std::vector<std::string> values = {designed["results"][0]["value"].dump()};
     if (name == "gearbox.ratio") {
       values.clear();
       for (const auto& interval : answer["intervals"]) {
-        const bool is_at_start = interval["from"] == answer["searched"]["from"];
-        values.push_back(interval[is_at_start ? "to" : "from"].dump());
+        const bool is_at_start = interval["low"] == answer["searched"]["low"];
+        values.push_back(interval[is_at_start ? "high" : "low"].dump());
       }
     }
     for (const std::string& value : values) {
       const Outcome then = run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--set",
                                      name + "=" + value + unit, "--format", "json"});
-      const auto cycles = nlohmann::json::parse(then.out)["cycles"];
+      const auto cycles = nlohmann::json::parse(then.out)["answer"]["cycles"];
       ASSERT_FALSE(cycles.empty());
       EXPECT_NEAR(cycles[0]["amplitude"], limit, 1e-10 * limit);
     }
@@ -132,20 +133,25 @@ TEST(DesignCommand, AConditionMoreLosesNoProof) {
         run_tool({"design", "examples/elinco-fd162.toml", "--target", target, "--parameters",
                   "load.friction,controller.motor_speed_feedback", "--format", "json"});
     EXPECT_EQ(run.status, 0) << run.err;
-    return nlohmann::json::parse(run.out)["answers"];
+    const auto printed = nlohmann::json::parse(run.out);
+    std::vector<nlohmann::json> answers;
+    for (const auto& one : printed["design"]["parameters"]) {
+      answers.push_back(one["values"]);
+    }
+    return answers;
   };
   const auto alone = answers_of("no-hunting");
   const auto kept = answers_of("no-hunting and bandwidth >= 0.01 Hz");
   const auto narrowed = answers_of("no-hunting and bandwidth >= 1 Hz");
   for (const auto& answers : {kept, narrowed}) {
-    EXPECT_EQ(answers[0]["certified"], true);
+    EXPECT_EQ(answers[0]["kind"], "certified");
     EXPECT_EQ(answers[0]["searched"], alone[0]["searched"]);
-    EXPECT_EQ(answers[0]["searched_within"], nlohmann::json({"bandwidth"}));
-    EXPECT_EQ(answers[0]["intervals"][0]["from"], alone[0]["intervals"][0]["from"]);
+    EXPECT_EQ(answers[0]["searched_within"]["limits"][0]["quantity"], "bandwidth");
+    EXPECT_EQ(answers[0]["intervals"][0]["low"], alone[0]["intervals"][0]["low"]);
   }
   EXPECT_EQ(kept[0]["intervals"], alone[0]["intervals"]);
   EXPECT_EQ(kept[1]["intervals"], alone[1]["intervals"]);
-  EXPECT_LT(narrowed[0]["intervals"][0]["to"], alone[0]["intervals"][0]["to"]);
+  EXPECT_LT(narrowed[0]["intervals"][0]["high"], alone[0]["intervals"][0]["high"]);
 }
 
 /// The tachometer that a design asks for, typed into the drive.
@@ -155,7 +161,7 @@ TEST(DesignCommand, ATachometerThatIsAskedForEndsTheHunting) {
         run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--set",
                   std::string("controller.motor_speed_feedback=") + feedback, "--format", "json"});
     EXPECT_EQ(run.status, 0) << run.err;
-    return nlohmann::json::parse(run.out)["verdict"].get<std::string>();
+    return nlohmann::json::parse(run.out)["answer"]["verdict"].get<std::string>();
   };
   EXPECT_EQ(verdict_with("7.5022 V s/rad"), "hunts");
   EXPECT_EQ(verdict_with("7.5023 V s/rad"), "cannot hunt");
@@ -167,9 +173,10 @@ TEST(DesignCommand, TakesAnyNumberOfTheClosedFormByItsPath) {
        "no-hunting", "--parameters", "motor.resistance,controller.kp", "--format", "json"});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto design = nlohmann::json::parse(run.out);
-  EXPECT_EQ(design["answers"][0]["parameter"], "motor.resistance");
-  EXPECT_EQ(design["answers"][0]["present"], 300.0);
-  EXPECT_EQ(design["answers"][1]["parameter"], "controller.proportional");
+  const auto& parameters = design["design"]["parameters"];
+  EXPECT_EQ(parameters[0]["values"]["parameter"], "motor.resistance");
+  EXPECT_EQ(parameters[0]["values"]["present"], 300.0);
+  EXPECT_EQ(parameters[1]["values"]["parameter"], "controller.proportional");
 }
 
 // ---- drives that are searched -------------------------------------------------------------------
@@ -183,12 +190,13 @@ TEST(DesignCommand, OfAnyDriveAreItsAnswersThoseOfLimitCycle) {
   const Outcome run = run_tool(json_words);
   ASSERT_EQ(run.status, 0) << run.err;
   const auto design = nlohmann::json::parse(run.out);
-  EXPECT_EQ(design["met"], false);
-  const auto& answer = design["answers"][0];
-  EXPECT_EQ(answer["certified"], false);
+  EXPECT_EQ(design["design"]["met"], "none");
+  const auto& designed = design["design"]["parameters"][0];
+  const auto& answer = designed["values"];
+  EXPECT_EQ(answer["kind"], "searched");
   EXPECT_EQ(answer["grid"].size(), 5U);
   ASSERT_FALSE(answer["intervals"].empty());
-  const double end = answer["intervals"].back()["to"];
+  const double end = answer["intervals"].back()["high"];
   const double limit = 15.0 / 60.0 * std::numbers::pi / 180.0;
   const auto largest_with = [&](double gain) {
     const Outcome one =
@@ -197,18 +205,18 @@ TEST(DesignCommand, OfAnyDriveAreItsAnswersThoseOfLimitCycle) {
                   "json"});
     double largest = 0.0;
     const auto found = nlohmann::json::parse(one.out);
-    for (const auto& cycle : found["cycles"]) {
+    for (const auto& cycle : found["answer"]["cycles"]) {
       largest = std::max(largest, cycle["amplitude"].get<double>());
     }
     return largest;
   };
   EXPECT_LE(largest_with(end), limit);
   EXPECT_GT(largest_with(1.001 * end), limit);
-  EXPECT_NE(answer["nearest"]["response"]["step"], nullptr);
+  EXPECT_NE(designed["results"][0]["answer"]["step"], nullptr);
   // Less gain turns the loop less, and makes it slower.
-  const auto& present = design["present"]["loop"];
-  const auto& loop = answer["nearest"]["loop"];
-  EXPECT_EQ(loop["stable"], true);
+  const auto& present = design["design"]["present"]["answer"]["loop"];
+  const auto& loop = designed["results"][0]["answer"]["loop"];
+  EXPECT_EQ(loop["is_stable"], true);
   EXPECT_GT(loop["phase_margin"], present["phase_margin"]);
   EXPECT_LT(loop["bandwidth"], present["bandwidth"]);
   const Outcome text = run_tool(words);
@@ -230,9 +238,10 @@ TEST(DesignCommand, ATargetOnCeilingsIsProved) {
   EXPECT_THAT(run.out, HasSubstr("computed at many values, not bounded over them: ceiling."));
   std::vector<std::string> as_json = words;
   as_json.insert(as_json.end(), {"--format", "json"});
-  const auto answer = nlohmann::json::parse(run_tool(as_json).out)["answers"][0];
+  const auto answer =
+      nlohmann::json::parse(run_tool(as_json).out)["design"]["parameters"][0]["values"];
   ASSERT_EQ(answer["proofs"].size(), 1U);
-  EXPECT_EQ(answer["proofs"][0]["proved"], answer["intervals"]);
+  EXPECT_EQ(answer["proofs"][0]["parts"], answer["intervals"]);
   EXPECT_EQ(answer["proofs"][0]["reason"], nullptr);
 }
 

@@ -143,9 +143,9 @@ TEST(SimulateCommand, JsonHoldsSamplesEventsBooksAndWhereItStopped) {
   ASSERT_EQ(run.status, 0) << run.err;
   const json printed = json::parse(run.out);
   const Motion motion = simulate(sample_drive(1.0, 0.3), {.until = 12.0});
-  EXPECT_EQ(printed["schema"], "gearlash/simulate/2");
+  EXPECT_EQ(printed["schema"], "gearlash/simulate/3");
   EXPECT_EQ(printed["engine"], "closed form");
-  EXPECT_EQ(printed["stopped"]["reason"], "reached_end");
+  EXPECT_EQ(printed["stop"], "reached_end");
   EXPECT_EQ(printed["events"].size(), motion.events().size());
   EXPECT_EQ(printed["events"].back()["time"].get<double>(), motion.events().back().time);
   EXPECT_EQ(printed["events"].back()["after"]["motor_speed"].get<double>(),
@@ -157,7 +157,7 @@ TEST(SimulateCommand, JsonHoldsSamplesEventsBooksAndWhereItStopped) {
     EXPECT_EQ(row[1].get<double>(), motion.at(row[0].get<double>()).shafts.load_position);
   }
   EXPECT_EQ(
-      printed["command"],
+      printed["provenance"]["command"],
       "gearlash simulate --until 12 --every 0.5 --format json --restitution 0.3 --reference 1 "
       "--damping 0.19 --inertia-ratio 2 --friction-ratio 1/10 --backlash 0.3");
 }

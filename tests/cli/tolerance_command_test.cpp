@@ -39,24 +39,26 @@ nlohmann::json study_of(const std::vector<std::string>& more) {
 
 TEST(ToleranceCommand, SizesAreDistributedAsTheBacklash) {
   const Scratch scratch;
-  const auto study =
+  const auto report =
       study_of({only_backlash(scratch), "--target", "size <= 0.2", "--yield", "0.5"});
+  const auto& study = report["study"];
   constexpr double amplitude_per_backlash = 0.241611108 / 0.3;
   EXPECT_EQ(study["hunting"]["value"], 1.0);
   for (const auto& quantile : study["amplitude"]) {
     const double backlash = 0.1 + 0.2 * quantile["share"].get<double>();
-    EXPECT_NEAR(quantile["value"], backlash * amplitude_per_backlash, 1e-4);
+    EXPECT_NEAR(quantile["value"]["value"], backlash * amplitude_per_backlash, 1e-4);
   }
   EXPECT_NEAR(study["yield"]["value"], (0.2 / amplitude_per_backlash - 0.1) / 0.2, 1e-4);
   // Half of the pieces from 0.1 to max are at most as large as the target permits.
-  EXPECT_NEAR(study["backlash"]["max"], 0.1 + 2.0 * (0.2 / amplitude_per_backlash - 0.1), 1e-3);
-  ASSERT_EQ(study["parameters"].size(), 1U);
-  EXPECT_NEAR(study["parameters"][0]["indices_of_amplitude"]["first_order"]["value"], 1.0, 1e-3);
-  EXPECT_EQ(study["parameters"][0]["worst"]["value"], 0.3);
-  EXPECT_NEAR(study["worst"]["amplitude"], 0.241611108, 1e-9);
+  EXPECT_NEAR(report["backlash"]["max"], 0.1 + 2.0 * (0.2 / amplitude_per_backlash - 0.1), 1e-3);
+  const auto& numbers = report["sensitivities"]["numbers"];
+  ASSERT_EQ(numbers.size(), 1U);
+  EXPECT_NEAR(numbers[0]["of_amplitude"]["first_order"]["value"], 1.0, 1e-3);
+  EXPECT_EQ(report["worst"]["numbers"][0]["value"], 0.3);
+  EXPECT_NEAR(report["worst"]["result"]["amplitude"], 0.241611108, 1e-9);
   // The ceiling is 0.8542 backlashes (OracleCeiling).
-  EXPECT_NEAR(study["proved"]["bound"], 0.8542 * 0.3, 1e-4);
-  EXPECT_EQ(study["proved"]["reason"], nullptr);
+  EXPECT_NEAR(report["proved"]["bound"], 0.8542 * 0.3, 1e-4);
+  EXPECT_EQ(report["proved"]["reason"], nullptr);
   const Outcome text = run_tool({"tolerance", only_backlash(scratch), "--samples", "512"});
   EXPECT_THAT(text.out, HasSubstr("Proved: no sample within the tolerances swings by more than "
                                   "±0.2563 rad"));

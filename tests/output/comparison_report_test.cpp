@@ -61,18 +61,19 @@ followed to its end: first.
 
 TEST(ComparisonReport, JsonIsOfTheSameRecordInSI) {
   const json printed = json::parse(comparison_json(report()));
-  EXPECT_EQ(printed["schema"], "gearlash/compare/2");
-  EXPECT_TRUE(printed["parameter"].is_null());
-  const json& cases = printed["cases"];
-  EXPECT_EQ(cases[0]["values"], json({{"motor_amplitude", 0.5 * degree},
-                                      {"frequency", 2.0},
-                                      {"phase_margin", 60.0 * degree},
-                                      {"overshoot", 0.25}}));
-  EXPECT_EQ(cases[0]["limit_cycle"]["verdict"], "hunts");
-  EXPECT_EQ(cases[1]["loop"]["stable"], false);
-  EXPECT_TRUE(cases[1]["step_response"].is_null());
+  EXPECT_EQ(printed["schema"], "gearlash/compare/3");
+  EXPECT_TRUE(printed["axis"].is_null());
+  const json& cases = printed["drives"];
+  const json& values = cases[0]["answer"]["values"];
+  EXPECT_EQ(values["motor_amplitude"], 0.5 * degree);
+  EXPECT_EQ(values["frequency"], 2.0);
+  EXPECT_EQ(values["phase_margin"], 60.0 * degree);
+  EXPECT_EQ(values["overshoot"], 0.25);
+  EXPECT_EQ(cases[0]["answer"]["verdict"], "hunts");
+  EXPECT_EQ(cases[1]["answer"]["loop"]["is_stable"], false);
+  EXPECT_TRUE(cases[1]["answer"]["step"].is_null());
   EXPECT_EQ(cases[2]["name"], "third");
-  for (const std::string key : {"value", "stiffness", "loop", "values", "limit_cycle"}) {
+  for (const std::string key : {"stiffness", "answer"}) {
     EXPECT_TRUE(cases[2][key].is_null()) << key;
   }
 }

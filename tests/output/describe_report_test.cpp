@@ -34,6 +34,7 @@ DescribeReport report_of(const drive::ReducedDrive& drive) {
   report.answer.verdict = Verdict::hunts;
   report.answer.cycles = {cycle};
   report.backlash = drive.backlash;
+  set_errors(report.analyses, report.answer);
   return report;
 }
 
@@ -53,6 +54,7 @@ TEST(DescribeReport, APredictionWithoutAnExactCycleIsSaidToBeWrong) {
   DescribeReport report = report_of(type_one_servo());
   report.answer.cycles.clear();
   report.answer.verdict = Verdict::cannot_hunt;
+  set_errors(report.analyses, report.answer);
   const std::string text = describe_text(report);
   EXPECT_THAT(text, testing::StartsWith("cannot hunt: "));
   EXPECT_THAT(text, HasSubstr("  exact              no stable cycle\n"));
@@ -66,9 +68,9 @@ TEST(DescribeReport, JsonHasEveryNumber) {
   const DescribeReport report = report_of(drive);
   const auto json = nlohmann::json::parse(describe_json(report));
   ASSERT_EQ(json["analyses"].size(), 3U);
-  EXPECT_EQ(json["schema"], "gearlash/describe/2");
-  EXPECT_EQ(json["verdict"], "hunts");
-  EXPECT_EQ(json["cycles"][0]["frequency"], 0.25);
+  EXPECT_EQ(json["schema"], "gearlash/describe/3");
+  EXPECT_EQ(json["answer"]["verdict"], "hunts");
+  EXPECT_EQ(json["answer"]["cycles"][0]["frequency"], 0.25);
   const auto& gap = json["analyses"][0];
   EXPECT_EQ(gap["part"], "gap, load held by friction");
   EXPECT_EQ(gap["nonlinearity"]["gap"], 2.0);
@@ -78,7 +80,7 @@ TEST(DescribeReport, JsonHasEveryNumber) {
   for (std::size_t i = 0; i < gap["cycles"].size(); ++i) {
     const auto& motion = report.analyses[0].cycles[i];
     EXPECT_EQ(gap["cycles"][i]["amplitude"], motion.amplitude);
-    EXPECT_EQ(gap["cycles"][i]["period"], motion.balance.period);
+    EXPECT_EQ(gap["cycles"][i]["balance"]["period"], motion.balance.period);
     EXPECT_EQ(gap["cycles"][i]["error"].is_null(), !motion.balance.stable);
   }
   EXPECT_EQ(json["analyses"][2]["nonlinearity"]["kind"], "saturation");
@@ -88,6 +90,7 @@ TEST(DescribeReport, WhatIsUndecidedIsNotSaidToBeWrong) {
   DescribeReport report = report_of(type_one_servo());
   report.answer.cycles.clear();
   report.answer.verdict = Verdict::undecided;
+  set_errors(report.analyses, report.answer);
   EXPECT_THAT(describe_text(report), HasSubstr("  exact              undecided\n"));
 }
 

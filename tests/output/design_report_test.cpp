@@ -42,25 +42,26 @@ TEST(DesignReport, ShowsBandwidthInHertzAndPhaseMarginInDegrees) {
   EXPECT_THAT(text, HasSubstr("settles  bandwidth  phase margin\n"));
   EXPECT_THAT(text, HasSubstr("12.5 Hz    45.0 deg\n"));
   const auto json = nlohmann::json::parse(design_json(report));
-  const auto& loop = json["answers"][0]["nearest"]["loop"];
-  EXPECT_EQ(loop["stable"], true);
+  const auto& loop = json["design"]["parameters"][0]["results"][0]["answer"]["loop"];
+  EXPECT_EQ(loop["is_stable"], true);
   EXPECT_DOUBLE_EQ(loop["bandwidth"], 12.5);
   EXPECT_DOUBLE_EQ(loop["crossover"], 7.25);
   EXPECT_DOUBLE_EQ(loop["phase_margin"], std::numbers::pi / 4.0);
-  EXPECT_EQ(json["present"]["loop"], nullptr);  // not given above
+  EXPECT_EQ(json["design"]["present"]["answer"]["loop"], nullptr);  // not given above
 }
 
 TEST(DesignReport, LeavesWhatThereIsNotBlank) {
   const DesignReport unstable = report_with(LinearLoop{});
   EXPECT_THAT(design_text(unstable), Not(HasSubstr(" Hz")));
   EXPECT_THAT(design_text(unstable), Not(HasSubstr(" deg\n")));
-  const auto loop = nlohmann::json::parse(design_json(unstable))["answers"][0]["nearest"]["loop"];
-  EXPECT_EQ(loop["stable"], false);
+  const auto loop = nlohmann::json::parse(
+      design_json(unstable))["design"]["parameters"][0]["results"][0]["answer"]["loop"];
+  EXPECT_EQ(loop["is_stable"], false);
   for (const char* key : {"bandwidth", "crossover", "phase_margin"}) {
     EXPECT_TRUE(loop.contains(key) && loop[key].is_null()) << key;
   }
   const auto relay = nlohmann::json::parse(design_json(report_with(std::nullopt)));
-  EXPECT_EQ(relay["answers"][0]["nearest"]["loop"], nullptr);
+  EXPECT_EQ(relay["design"]["parameters"][0]["results"][0]["answer"]["loop"], nullptr);
 }
 
 }  // namespace

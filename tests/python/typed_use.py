@@ -32,7 +32,7 @@ largest: float = float(data["amplitude"].max())
 dataset: xarray.Dataset = gearlash.sweep(drive, arrays={"gearbox.backlash": np.array([1e-3])})
 words = gearlash.verdict_words(data)
 
-places = gearlash.compare({"drive": drive, "changed": changed}, quantities=["amplitude"])["cases"]
+places = gearlash.compare({"drive": drive, "changed": changed}, quantities=["amplitude"])["drives"]
 
 motion = gearlash.simulate(drive, 1.0, start=gearlash.Start(load_position=0.1))
 last: float = float(motion.at([0.0, 1.0]).load_position[-1])

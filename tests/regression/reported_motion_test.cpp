@@ -19,7 +19,6 @@
 #include "model/reduced_drive.hpp"
 #include "output/answer_report.hpp"
 #include "question/loop/describing/describing.hpp"
-#include "question/repetition.hpp"
 
 namespace gearlash::reported_motion_test {
 namespace {
@@ -164,7 +163,7 @@ TEST(ReportedMotion, HasOneAmplitudeInEveryVerb) {
   EXPECT_EQ(drive::exact_motions(answer)[0].amplitude, 1.1);
   AnswerReport report = report_of(Drive{}, answer);
   report.measured = MeasuredHunting{.amplitude = 1.1, .frequency = 0.5};
-  EXPECT_THAT(answer_json(report), HasSubstr("\"amplitude_share\": 0.0"));
+  EXPECT_THAT(answer_json(report), HasSubstr("\"amplitude_share\": 0"));
 }
 
 /// Small swings lie between its large ones: their mean is ±2.5e-4 rad.
@@ -210,15 +209,15 @@ TEST(ReportedMotion, BehindACoarseEncoderIsOneCycle) {
 
 /// Swings that repeat are not irregular, whatever their neighbours do.
 TEST(ReportedMotion, RepeatsIfItsSwingsDoOrWithinAnEncodersStep) {
-  EXPECT_TRUE(repeats(motion_with(2e-11, 0.2, 50.0)));
-  EXPECT_FALSE(repeats(motion_with(0.02, 0.2, 50.0)));
-  EXPECT_TRUE(repeats(motion_with(0.02, 0.019, 50.0)));
-  EXPECT_FALSE(repeats(motion_with(0.02, 0.021, 50.0)));
-  EXPECT_FALSE(repeats(motion_with(0.02, 0.2, 0.0)));  // the encoder does not see it
+  EXPECT_TRUE(motion_with(2e-11, 0.2, 50.0).repeats());
+  EXPECT_FALSE(motion_with(0.02, 0.2, 50.0).repeats());
+  EXPECT_TRUE(motion_with(0.02, 0.019, 50.0).repeats());
+  EXPECT_FALSE(motion_with(0.02, 0.021, 50.0).repeats());
+  EXPECT_FALSE(motion_with(0.02, 0.2, 0.0).repeats());  // the encoder does not see it
   IrregularMotion uneven = motion_with(0.02, 0.019, 50.0);
   uneven.period_deviation = 0.2;
-  EXPECT_FALSE(repeats(uneven));
-  EXPECT_FALSE(repeats(IrregularMotion{.amplitude = 1.0}));
+  EXPECT_FALSE(uneven.repeats());
+  EXPECT_FALSE(IrregularMotion{.amplitude = 1.0}.repeats());
   Answer answer;
   answer.search = SearchRecord{.starts = {{.end = "irregular", .which = 0}}};
   answer.irregular = {motion_with(2e-11, 0.2, 50.0)};

@@ -43,7 +43,7 @@ TEST(Quantization, IsNotWhatADriveDoesWithoutEncoderToo) {
   EXPECT_EQ(answer.is_quantization, false);
   EXPECT_THAT(headline(drive, answer), HasSubstr(", 2.5 encoder steps"));
   EXPECT_THAT(headline(drive, answer), Not(HasSubstr("quantization")));
-  EXPECT_THAT(to_json(drive, answer), HasSubstr("\"quantization\": false"));
+  EXPECT_THAT(to_json(drive, answer), HasSubstr("\"is_quantization\": false"));
   const Answer exact =
       analyse(named("hunts-with-any-encoder", {{"sensor.counts_per_turn", "none"}}));
   EXPECT_EQ(exact.verdict, Verdict::hunts);
@@ -71,7 +71,7 @@ TEST(Quantization, IsLeftOpenWhereNobodyAsks) {
   const Drive drive = named("hunts-with-any-encoder");
   const Answer answer = analyse(drive);
   EXPECT_FALSE(answer.is_quantization);
-  EXPECT_THAT(to_json(drive, answer), HasSubstr("\"quantization\": null"));
+  EXPECT_THAT(to_json(drive, answer), HasSubstr("\"is_quantization\": null"));
 }
 
 // ---- describing functions -----------------------------------------------------------------------
@@ -89,7 +89,7 @@ TEST(Describe, GivesTheNumbersOfTheAnswerAlsoWhereNothingClosed) {
   EXPECT_THAT(text, HasSubstr("exact            ±1.26 rad (72.21°)   ±1.06 rad   2.361 s"));
   EXPECT_THAT(text, Not(HasSubstr("no stable cycle")));
   const std::string json = describe_json(report);
-  EXPECT_THAT(json, HasSubstr("\"of_irregular\": 0"));
+  EXPECT_THAT(json, HasSubstr("\"exact\": 0"));
   EXPECT_THAT(json, HasSubstr("\"mean_amplitude\": 1.258"));
 }
 

@@ -1,8 +1,8 @@
 #include "core.hpp"
 
 #include <algorithm>
+#include <array>
 #include <exception>
-#include <functional>
 #include <optional>
 
 #include "drive_reply.hpp"
@@ -11,68 +11,70 @@
 #include "input/axis_text.hpp"
 #include "limited_progress.hpp"
 #include "output/answer_report.hpp"
+#include "output/json_writer.hpp"
 #include "output/parameter_text.hpp"
+#include "output/records.hpp"
 #include "picture/answer_picture.hpp"
 #include "picture/attractor_picture.hpp"
 #include "picture_reply.hpp"
 #include "question/analyse.hpp"
 #include "thesis/figures.hpp"
+#include "web/reply_records.hpp"
 
 namespace gearlash::web {
+
+const char* name_of(Means means) {
+  constexpr std::array names = {"closed form", "proof by energy", "followed", "one start",
+                                "search"};
+  return names.at(static_cast<std::size_t>(means));
+}
+
 namespace {
 
-Json faults_json(const std::vector<Fault>& faults) {
-  return json_list(faults, [](const Fault& fault) {
+/// For pictures to be put beside it.
+template <class Reply>
+Json json_from(const Reply& reply) {
+  return Json::parse(json_of(reply));
+}
+
+std::vector<ShownFault> shown(const std::vector<Fault>& faults) {
+  std::vector<ShownFault> all;
+  for (const Fault& fault : faults) {
     const std::string plain = fault.path.substr(0, fault.path.find('['));
-    return Json{{"path", fault.path},
-                {"is_parameter", find_parameter(plain) != nullptr},
-                {"value", fault.value},
-                {"permitted", fault.permitted},
-                {"where", fault.where}};
-  });
+    all.push_back(
+        {fault.path, find_parameter(plain) != nullptr, fault.value, fault.permitted, fault.where});
+  }
+  return all;
 }
 
-/// Texts of one number. Values beyond which hunting ends or begins are rounded to that side.
-struct NumberText {
-  std::function<std::string(double)> of;
-  std::function<std::string(double)> at_least;
-  std::function<std::string(double)> at_most;
-};
-
-NumberText text_of_parameter(const ParameterText& words) {
-  return {.of = [&words](double value) { return words.of(value); },
-          .at_least = [&words](double value) { return words.at_least(value); },
-          .at_most = [&words](double value) { return words.at_most(value); }};
+MarginText text_of(const ParameterMargin& margin, const WrittenDrive& written,
+                   const ShownUnits& units) {
+  const Parameter& parameter = *parameter_of(Axis{.path = margin.parameter}, written.drive);
+  ParameterText words(written.drive, margin.parameter, written.angle);
+  const ShownUnit unit = units.of(parameter);
+  words.show_in(unit.name, unit.in_si);
+  MarginText text{
+      .parameter = margin.parameter,
+      .description = std::string(parameter.meaning),
+      .is_setting = exists(parameter, written.drive),
+      .is_certified = margin.kind == SearchKind::certified,
+      .present = words.of(margin.present),
+      .searched = words.of(margin.searched.low) + " to " + words.of(margin.searched.high)};
+  if (margin.below) text.below = words.at_most(*margin.below);
+  if (margin.above) text.above = words.at_least(*margin.above);
+  for (const double choice : margin.choices) text.choices.push_back(words.of(choice));
+  return text;
 }
 
-/// The present value and the nearest ones at which hunting ends or begins, as a reader has them.
-Json margin_texts(const ParameterMargin& margin, const std::string& description, bool is_setting,
-                  const NumberText& text) {
-  return {{"parameter", margin.parameter},
-          {"description", description},
-          {"is_setting", is_setting},
-          {"is_certified", margin.kind == SearchKind::certified},
-          {"present", text.of(margin.present)},
-          {"below", margin.below ? Json(text.at_most(*margin.below)) : Json(nullptr)},
-          {"above", margin.above ? Json(text.at_least(*margin.above)) : Json(nullptr)},
-          {"searched", text.of(margin.searched.low) + " to " + text.of(margin.searched.high)},
-          {"choices", json_list(margin.choices, text.of)}};
-}
-
-Json margins_json(const DriveText& text, const WrittenDrive& written, const HuntingMargin& margin) {
+MarginsReply reply_of(const HuntingMargin& margin, const DriveText& text,
+                      const WrittenDrive& written) {
   const ShownUnits units(text, written);
-  return {{"hunts", margin.hunts},
-          {"is_known", margin.is_known},
-          {"is_complete", !margin.stopped},
-          {"texts", json_list(margin.parameters, [&](const ParameterMargin& one) {
-             const Axis axis{.path = one.parameter};
-             const Parameter& parameter = *parameter_of(axis, written.drive);
-             ParameterText words(written.drive, one.parameter, written.angle);
-             const ShownUnit unit = units.of(parameter);
-             words.show_in(unit.name, unit.in_si);
-             return margin_texts(one, std::string(parameter.meaning),
-                                 exists(parameter, written.drive), text_of_parameter(words));
-           })}};
+  MarginsReply reply{
+      .hunts = margin.hunts, .is_known = margin.is_known, .is_complete = !margin.stopped};
+  for (const ParameterMargin& one : margin.parameters) {
+    reply.texts.push_back(text_of(one, written, units));
+  }
+  return reply;
 }
 
 }  // namespace
@@ -89,7 +91,7 @@ class Core::Session {
     if (ask == "thesis") return thesis_figure(request.at("figure"), progress);
     const DriveText text = drive_text_of(request.at("drive"));
     const WrittenDrive written = parse(text, host_.folder);
-    if (ask == "drive") return drive_reply(text, written);
+    if (ask == "drive") return json_from(drive_reply(text, written));
     if (ask == "file") return file_reply(written);
     if (ask == "answer") return answer(request, text, written, progress);
     if (ask == "map") return map_reply(request, written, numbers_, progress);
@@ -115,11 +117,11 @@ class Core::Session {
   }
 
   /// How the answer was found, for the page to say.
-  static const char* means_of(const Analysis& analysis, bool is_coarse) {
-    if (analysis.closed) return "closed form";
-    if (analysis.search->outcomes.empty()) return "proof by energy";
-    if (analysis.is_followed) return "followed";
-    return is_coarse ? "one start" : "search";
+  static Means means_of(const Analysis& analysis, bool is_coarse) {
+    if (analysis.closed) return Means::closed_form;
+    if (analysis.search->outcomes.empty()) return Means::proof_by_energy;
+    if (analysis.is_followed) return Means::followed;
+    return is_coarse ? Means::one_start : Means::search;
   }
 
   Json answer(const Json& request, const DriveText& text, const WrittenDrive& written,
@@ -128,14 +130,15 @@ class Core::Session {
     if (last_toml_ != text.toml) last_.reset();  // another drive
     const Analysis analysis = analysed(is_coarse, written, progress);
     const AnswerReport report = report_of(written.drive, analysis.answer, written.angle, {});
-    Json json = {{"level", is_coarse ? "coarse" : "fine"},
-                 {"means", means_of(analysis, is_coarse)},
-                 {"is_complete", !analysis.search || analysis.search->is_complete},
-                 {"headline", headline(report)},
-                 {"report", is_coarse ? Json(nullptr) : Json(answer_text(report))},
-                 {"answer", Json::parse(answer_json(report))},
-                 {"unit", written.angle.name},
-                 {"unit_in_si", written.angle.radians}};
+    Json json =
+        json_from(AnswerReply{.level = is_coarse ? Level::coarse : Level::fine,
+                              .means = means_of(analysis, is_coarse),
+                              .is_complete = !analysis.search || analysis.search->is_complete,
+                              .headline = headline(report),
+                              .report = is_coarse ? "" : answer_text(report),
+                              .answer = report.answer,
+                              .unit = written.angle.name,
+                              .unit_in_si = written.angle.radians});
     if (is_drawn(analysis)) {
       json["response"] = motion_picture_json(response_picture(report, analysis), numbers_);
       MotionPicture phase = phase_of(report, analysis, is_coarse, progress);
@@ -180,10 +183,9 @@ class Core::Session {
     for (const Json& path : request.value("parameters", Json::array())) {
       axes.push_back(read_axis_to_search("parameters", path.get<std::string>(), written.drive));
     }
-    if (!axes.empty()) {
-      return margins_json(text, written, gearlash::margins(written.drive, axes, progress));
-    }
-    return margins_json(text, written, gearlash::margins(written.drive, progress));
+    const HuntingMargin margin = axes.empty() ? gearlash::margins(written.drive, progress)
+                                              : gearlash::margins(written.drive, axes, progress);
+    return json_from(reply_of(margin, text, written));
   }
 
   Json thesis_figure(int number, Progress& progress) {
@@ -212,7 +214,7 @@ Reply Core::ask(std::string_view request) {
     json = session_->reply_to(Json::parse(request));
     reply.numbers = session_->take_numbers();
   } catch (const InvalidInput& error) {
-    json = {{"faults", faults_json(error.faults())}};
+    json = {{"faults", json_from(shown(error.faults()))}};
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {

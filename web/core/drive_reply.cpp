@@ -1,7 +1,6 @@
 #include "drive_reply.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -18,13 +17,13 @@ namespace {
 /// Where a slider runs: the registry's range of a normal form that is in it, a share's, else that
 /// of the axis searched if nothing else is known, from 0 or on both sides of it where the value
 /// needs it.
-Json slider(const Drive& drive, const Parameter& parameter, double value) {
+Slider slider(const Drive& drive, const Parameter& parameter, double value) {
   const UsualRange& usual = parameter.usual;
   const bool is_of_form = parameter.permitted == Permitted::of_normal_form && usual.high > 0.0;
   if (is_of_form && value >= usual.low && value <= usual.high) {
-    return {{"low", usual.low}, {"high", usual.high}, {"logarithmic", usual.is_logarithmic}};
+    return {usual.low, usual.high, usual.is_logarithmic};
   }
-  if (value < 0.0) return {{"low", 2.0 * value}, {"high", -2.0 * value}, {"logarithmic", false}};
+  if (value < 0.0) return {2.0 * value, -2.0 * value, false};
   Axis axis{.values = {0.0, 1.0}};
   try {
     axis = usual_axis(drive, parameter.path);
@@ -33,73 +32,21 @@ Json slider(const Drive& drive, const Parameter& parameter, double value) {
   const bool is_by_ratio = axis.logarithmic && value > 0.0;
   const double first = axis.values.front();
   const double low = !is_by_ratio ? 0.0 : first > 0.0 ? first : axis.values.at(1);
-  return {{"low", low}, {"high", axis.values.back()}, {"logarithmic", is_by_ratio}};
+  return {low, axis.values.back(), is_by_ratio};
 }
 
-/// The names of ParameterKind, in its order.
-constexpr std::array kinds = {"number", "choice", "list", "matrix", "file"};
-static_assert(kinds.size() == static_cast<std::size_t>(ParameterKind::file) + 1);
+bool contains(const std::vector<std::string>& list, std::string_view path) {
+  return std::find(list.begin(), list.end(), path) != list.end();
+}
 
-/// All that the page shows of the parameters.
-class ParameterList {
- public:
-  ParameterList(const DriveText& text, const WrittenDrive& written)
-      : written_(written),
-        units_(text, written),
-        values_(drive_json(written.drive)),
-        defaults_(defaults_taken(written.drive)),
-        usual_(usual_parameters(written.drive)) {}
-
-  Json all() const {
-    return json_list(parameters_of(written_.drive),
-                     [&](const ParameterInfo& info) { return one(info); });
-  }
-
- private:
-  Json one(const ParameterInfo& info) const {
-    const std::string path(info.path);
-    const Json& value = values_[path];
-    Json json = {{"path", path},
-                 {"kind", kinds.at(static_cast<std::size_t>(info.kind))},
-                 {"meaning", info.meaning},
-                 {"value", value},
-                 {"is_default", contains(defaults_, path)},
-                 {"is_usual", contains(usual_, path)},
-                 {"is_required", info.is_required}};
-    if (info.kind == ParameterKind::choice) {
-      json["choices"] = json_list(info.choices, [](std::string_view word) { return word; });
-    }
-    if (info.kind == ParameterKind::number) add_number(value, *find_parameter(path), json);
-    return json;
-  }
-
-  void add_number(const Json& value, const Parameter& parameter, Json& json) const {
-    const ShownUnit unit = units_.of(parameter);
-    json["unit"] = unit.name;
-    json["unit_in_si"] = unit.in_si;
-    json["slider"] =
-        slider(written_.drive, parameter, value.is_number() ? value.get<double>() : 0.0);
-  }
-
-  static bool contains(const std::vector<std::string>& list, const std::string& path) {
-    return std::find(list.begin(), list.end(), path) != list.end();
-  }
-
-  const WrittenDrive& written_;
-  ShownUnits units_;
-  Json values_;
-  std::vector<std::string> defaults_;
-  std::vector<std::string> usual_;
-};
-
-/// Sections that the drive could have too.
-Json absent_sections(const Drive& drive) {
-  Json json = Json::array();
-  for (const Section& section : all_sections()) {
-    if (section.add == nullptr || section.is_present(drive)) continue;
-    json.push_back({{"name", section.name}, {"contents", section.contents}});
-  }
-  return json;
+void show_number(ParameterReply& reply, const WrittenDrive& written, const ShownUnits& units) {
+  const Parameter& parameter = *find_parameter(reply.path);
+  const ShownUnit unit = units.of(parameter);
+  const auto* value = std::get_if<double>(&reply.value);
+  reply.unit = unit.name;
+  reply.unit_in_si = unit.in_si;
+  const bool is_finite = value != nullptr && std::isfinite(*value);
+  reply.slider = slider(written.drive, parameter, is_finite ? *value : 0.0);
 }
 
 }  // namespace
@@ -135,11 +82,31 @@ WrittenDrive parse(const DriveText& text, const std::string& folder) {
   return parse_drive(text.toml, text.name, folder, text.settings);
 }
 
-Json drive_reply(const DriveText& text, const WrittenDrive& written) {
-  return {{"parameters", ParameterList(text, written).all()},
-          {"absent", absent_sections(written.drive)},
-          {"is_normal_form", written.drive.servo.has_value()},
-          {"is_searched", engines_of(written.drive).search}};
+DriveReply drive_reply(const DriveText& text, const WrittenDrive& written) {
+  const Drive& drive = written.drive;
+  DriveReply reply{.is_normal_form = drive.servo.has_value(),
+                   .is_searched = engines_of(drive).search};
+  const ShownUnits units(text, written);
+  const ByName<ParameterValue> values = parameter_values(drive);
+  const std::vector<std::string> defaults = defaults_taken(drive);
+  const std::vector<std::string> usual = usual_parameters(drive);
+  for (const ParameterInfo& info : parameters_of(drive)) {
+    ParameterReply one{.path = info.path,
+                       .kind = info.kind,
+                       .meaning = info.meaning,
+                       .value = values[reply.parameters.size()].second,
+                       .is_default = contains(defaults, info.path),
+                       .is_usual = contains(usual, info.path),
+                       .is_required = info.is_required,
+                       .choices = info.choices};
+    if (info.kind == ParameterKind::number) show_number(one, written, units);
+    reply.parameters.push_back(std::move(one));
+  }
+  for (const Section& section : all_sections()) {
+    if (section.add == nullptr || section.is_present(drive)) continue;
+    reply.absent.push_back({section.name, section.contents});
+  }
+  return reply;
 }
 
 Json file_reply(const WrittenDrive& written) {

@@ -7,7 +7,9 @@
 
 #include "gearlash/parameter.hpp"
 #include "input/drive_file.hpp"
-#include "output/json_values.hpp"
+#include "model/parameters.hpp"
+#include "numbers.hpp"
+#include "replies.hpp"
 
 namespace gearlash::web {
 
@@ -45,7 +47,7 @@ class ShownUnits {
 
 /// Every parameter of the drive: its value, as SI and as text in its author's unit, that unit, what
 /// it means, and the range of its slider.
-Json drive_reply(const DriveText& text, const WrittenDrive& written);
+DriveReply drive_reply(const DriveText& text, const WrittenDrive& written);
 
 /// The drive as a file that reads back exactly.
 Json file_reply(const WrittenDrive& written);

@@ -1,12 +1,26 @@
 // Columns of numbers beside a reply's JSON.
 #pragma once
 
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "output/json_values.hpp"
-
 namespace gearlash::web {
+
+using Json = nlohmann::ordered_json;
+
+inline Json json_optional(const std::optional<double>& number) {
+  return number ? Json(*number) : Json(nullptr);
+}
+
+/// The list of convert(element).
+template <class List, class Convert>
+Json json_list(const List& list, const Convert& convert) {
+  Json json = Json::array();
+  for (const auto& element : list) json.push_back(convert(element));
+  return json;
+}
 
 /// Collects the columns of one reply.
 class Numbers {

@@ -14,12 +14,12 @@ const titles: Record<string, string> = {
 export const titleOf = (section: string): string => titles[section] ?? inWords(section);
 
 const toPosition = (value: number, slider: Slider): number =>
-  slider.logarithmic
+  slider.is_logarithmic
     ? Math.log(value / slider.low) / Math.log(slider.high / slider.low)
     : (value - slider.low) / (slider.high - slider.low);
 
 const toValue = (position: number, slider: Slider): number =>
-  slider.logarithmic ? slider.low * (slider.high / slider.low) ** position : slider.low + position * (slider.high - slider.low);
+  slider.is_logarithmic ? slider.low * (slider.high / slider.low) ** position : slider.low + position * (slider.high - slider.low);
 
 /** The number with its unit, as the core reads it. */
 const settingOf = (value: number, parameter: Parameter): string => {

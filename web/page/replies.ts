@@ -1,4 +1,7 @@
-// What the core replies: web/core writes these, in the same words.
+// What the core replies: pictures here, all else by records.ts, which the build makes from web/core.
+import type { AnswerReply as AnswerNumbers } from './records';
+
+export type { DriveReply, MarginsReply, ParameterReply as Parameter, ShownFault as Fault, Slider } from './records';
 
 /** A column of numbers beside the JSON of a reply. */
 export interface Column {
@@ -6,45 +9,7 @@ export interface Column {
   count: number;
 }
 
-export interface Fault {
-  path: string;
-  /** Whether the path is that of a parameter, which can be typed. */
-  is_parameter: boolean;
-  value: string;
-  permitted: string;
-  where: string;
-}
-
-export interface Slider {
-  low: number;
-  high: number;
-  logarithmic: boolean;
-}
-
-type Value = number | string | null | Value[];
-
-export interface Parameter {
-  path: string;
-  kind: 'number' | 'choice' | 'list' | 'matrix' | 'file';
-  meaning: string;
-  value: Value;
-  is_default: boolean;
-  is_usual: boolean;
-  is_required: boolean;
-  choices?: string[];
-  unit?: string;
-  unit_in_si?: number;
-  slider?: Slider;
-}
-
-export interface DriveReply {
-  parameters: Parameter[];
-  absent: { name: string; contents: string }[];
-  is_normal_form: boolean;
-  is_searched: boolean;
-}
-
-/** One motion: columns of all its points. */
+/** One motion: columns of all its points, and its pieces between events. */
 export interface MotionCurve {
   name: string;
   /** Why it is not drawn. */
@@ -67,28 +32,7 @@ export interface MotionPicture {
   motions: MotionCurve[];
 }
 
-/** The output of `gearlash limit-cycle --format json`, as far as the page reads it. */
-interface Answer {
-  certainty: { verdict: string };
-  growth_at_rest: number | 'inf' | null;
-  ceiling: null | {
-    value: number | null;
-    reason: string | null;
-    /** Motion that reaches the torque limit ever again is not bounded. */
-    below_limit: boolean;
-  };
-  cycles: { stability: string; amplitude: number }[];
-}
-
-export interface AnswerReply {
-  level: 'coarse' | 'fine';
-  means: 'closed form' | 'proof by energy' | 'followed' | 'one start' | 'search';
-  is_complete: boolean;
-  headline: string;
-  report: string | null;
-  answer: Answer;
-  unit: string;
-  unit_in_si: number;
+export interface AnswerReply extends AnswerNumbers {
   response?: MotionPicture;
   /** The cycles. */
   cycles?: MotionPicture;
@@ -141,24 +85,6 @@ export interface PlotReply {
 export interface MapReply {
   plot: PlotReply;
   axes: { x: AxisFacts; y?: AxisFacts };
-  is_complete: boolean;
-}
-
-export interface MarginsReply {
-  hunts: boolean;
-  is_known: boolean;
-  texts: {
-    parameter: string;
-    description: string;
-    /** Whether it is a parameter of the drive, which can be set. */
-    is_setting: boolean;
-    is_certified: boolean;
-    present: string;
-    below: string | null;
-    above: string | null;
-    searched: string;
-    choices: string[];
-  }[];
   is_complete: boolean;
 }
 

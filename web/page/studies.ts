@@ -97,7 +97,7 @@ export class Studies {
     const { slider } = parameter;
     const unit = parameter.unit_in_si ?? 1;
     const words = parameter.unit ? ` ${parameter.unit}` : '';
-    return `${path}=${typed(slider.low / unit)}${words}:${typed(slider.high / unit)}${words}:${count}${slider.logarithmic ? ':log' : ''}`;
+    return `${path}=${typed(slider.low / unit)}${words}:${typed(slider.high / unit)}${words}:${count}${slider.is_logarithmic ? ':log' : ''}`;
   }
 
   private request(): { ask: 'map' | 'chart'; x: string; y?: string } {
@@ -230,7 +230,7 @@ export class Studies {
     const heads = ['number', 'now', 'down to', 'up to'].map((head) => `<th scope="col">${head}</th>`).join('');
     const lines = rows.map(
       (row) =>
-        `<tr><th scope="row" title="${escapeText(`${row.parameter}: ${row.description}`)}">${escapeText(row.parameter.replace(/[._]/g, ' '))}</th><td>${escapeText(row.present)}</td>` +
+        `<tr><th scope="row" title="${escapeText(`${row.parameter}: ${row.description}`)}">${escapeText(row.parameter.replace(/[._]/g, ' '))}</th><td>${escapeText(row.present ?? '')}</td>` +
         (row.below || row.above
           ? `<td>${this.changeCell(row, row.below)}</td><td>${this.changeCell(row, row.above)}</td></tr>`
           : `<td colspan="2">${row.choices.map((choice) => this.changeCell(row, choice)).join(' ') || escapeText(`nowhere from ${row.searched}`)}</td></tr>`),

@@ -27,15 +27,15 @@ function roundedUp(bound: number): number {
 export function growthText(reply: AnswerReply): string {
   const growth = reply.answer.growth_at_rest;
   if (growth === null) return '';
-  return `Growth at rest ${growth === 'inf' ? '∞' : short(growth)}. `;
+  return `Growth at rest ${growth === Infinity ? '∞' : short(growth)}. `;
 }
 
 export function ceilingText(reply: AnswerReply): string {
   const { ceiling } = reply.answer;
   if (!ceiling) return '';
-  if (ceiling.value === null) return `No ceiling: ${ceiling.reason ?? 'none is proved'}.`;
-  const condition = ceiling.below_limit ? ', as long as the torque stays below its limit' : '';
-  return `Ceiling, proved: in the end the load swings by at most ±${short(roundedUp(ceiling.value / reply.unit_in_si))} ${reply.unit}, whatever happens in the gap${condition}.`;
+  if (ceiling.load === null) return `No ceiling: ${ceiling.reason ?? 'none is proved'}.`;
+  const condition = ceiling.is_below_limit ? ', as long as the torque stays below its limit' : '';
+  return `Ceiling, proved: in the end the load swings by at most ±${short(roundedUp(ceiling.load / reply.unit_in_si))} ${reply.unit}, whatever happens in the gap${condition}.`;
 }
 
 export function levelText(reply: AnswerReply): string {
@@ -47,7 +47,7 @@ export function levelText(reply: AnswerReply): string {
     search: 'searched from many starts',
   }[reply.means];
   if (reply.level === 'coarse') return `Coarse, while you change it: ${found}.`;
-  const { verdict } = reply.answer.certainty;
+  const verdict = reply.answer.certainty;
   const isProved = reply.means === 'closed form' && (verdict === 'theorem' || verdict === 'enclosed');
   return `Fine: ${found}${isProved ? ', and proved' : ''}.${reply.is_complete ? '' : ' The search was stopped before its end.'}`;
 }

@@ -31,6 +31,12 @@ function writeTables(module: CoreModule, files: Record<string, string>): void {
   }
 }
 
+/** JSON has infinity as a text. */
+function parsed(json: string): unknown {
+  if (!json.includes('"inf"') && !json.includes('"-inf"')) return JSON.parse(json);
+  return JSON.parse(json, (_, value) => (value === 'inf' ? Infinity : value === '-inf' ? -Infinity : value));
+}
+
 function ask(module: CoreModule, request: unknown): { reply: unknown; numbers: Float64Array } {
   const text = JSON.stringify(request);
   const room = module.lengthBytesUTF8(text) + 1;
@@ -40,7 +46,7 @@ function ask(module: CoreModule, request: unknown): { reply: unknown; numbers: F
   module._free(at);
   const from = module._gearlash_numbers() / Float64Array.BYTES_PER_ELEMENT;
   return {
-    reply: JSON.parse(module.UTF8ToString(module._gearlash_reply())),
+    reply: parsed(module.UTF8ToString(module._gearlash_reply())),
     numbers: module.HEAPF64.slice(from, from + module._gearlash_number_count()),
   };
 }

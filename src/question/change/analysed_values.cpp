@@ -12,12 +12,10 @@
 #include "question/axis.hpp"
 #include "question/change/border.hpp"
 #include "question/change/value_scan.hpp"
+#include "question/family/followed_drives.hpp"
 
 namespace gearlash {
 namespace {
-
-/// The longest run of values of a grid of which only the ends are certain to be analysed afresh.
-constexpr std::size_t longest_missing_run = 8;
 
 /// Part of a grid, by its first and its last place.
 struct GridRun {
@@ -49,7 +47,7 @@ std::vector<JudgedValue> on_grid(JudgedLine& judged, const std::vector<double>& 
     for (const auto& [low, high] : open) {
       if (high - low < 2) continue;
       const bool both_miss = misses(all[low]) && misses(all[high]);
-      if (both_miss && high - low <= longest_missing_run) {
+      if (both_miss && high - low <= longest_run) {
         missing.push_back({low, high});
         continue;
       }

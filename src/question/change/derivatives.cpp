@@ -168,6 +168,14 @@ std::optional<double> Jacobian::elasticity(std::size_t quantity, std::size_t par
   return std::isnan(ratio) ? std::nullopt : std::optional(ratio);
 }
 
+std::vector<std::optional<double>> Jacobian::elasticities() const {
+  std::vector<std::optional<double>> all;
+  for (std::size_t i = 0; i < slopes.size(); ++i) {
+    all.push_back(elasticity(i / paths.size(), i % paths.size()));
+  }
+  return all;
+}
+
 Jacobian derivatives(const Drive& drive, std::span<const Quantity> quantities,
                      std::span<const std::string_view> paths, Progress& progress) {
   RangeCheck check;

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "model/rational_function.hpp"
-#include "question/repetition.hpp"
 
 namespace gearlash::drive {
 namespace {
@@ -400,7 +399,7 @@ const char* name_of(DescribedPart part) {
   return names[static_cast<std::size_t>(part)];
 }
 
-const char* description_of(Assumption assumption) {
+const char* name_of(Assumption assumption) {
   static constexpr const char* descriptions[] = {
       "the motor drives all inertia and viscous friction at all times",
       "the sensors are on the motor, so the gap is outside the loop of positions and causes "
@@ -460,6 +459,15 @@ std::optional<PredictionError> prediction_error(DescribedPart part,
                         period - 1.0, 1.0 / period - 1.0};
   }
   return nearest;
+}
+
+void set_errors(std::vector<DescribingAnalysis>& analyses, const Answer& answer) {
+  const std::vector<ExactMotion> exact = exact_motions(answer);
+  for (DescribingAnalysis& analysis : analyses) {
+    for (DescribedMotion& cycle : analysis.cycles) {
+      cycle.error = prediction_error(analysis.part, cycle, exact);
+    }
+  }
 }
 
 bool is_unseen(const DescribedMotion& predicted, double backlash) {

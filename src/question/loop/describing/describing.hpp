@@ -25,7 +25,7 @@ enum class DescribedPart {
   relay               ///< from the error or the speed to the torque, per level: a relay
 };
 
-/// Assumptions, besides that the nonlinearity's input is a sine about 0. description_of() is by
+/// Assumptions, besides that the nonlinearity's input is a sine about 0. name_of() is by
 /// order.
 enum class Assumption {
   motor_carries_all,
@@ -42,11 +42,21 @@ enum class Assumption {
   falling_friction_left_out
 };
 
+/// Errors of a prediction: predicted over exact value, minus 1.
+struct PredictionError {
+  std::size_t exact = 0;  ///< index into exact_motions(): the cycles, then the irregular motions
+  double amplitude = std::numeric_limits<double>::quiet_NaN();
+  double motor_amplitude = std::numeric_limits<double>::quiet_NaN();
+  double period = std::numeric_limits<double>::quiet_NaN();
+  double frequency = std::numeric_limits<double>::quiet_NaN();
+};
+
 /// Angles in rad, times in s (or whatever the drive is given in).
 struct DescribedMotion {
   double amplitude = std::numeric_limits<double>::quiet_NaN();  ///< of the load, half peak-to-peak
-  double motor_amplitude = std::numeric_limits<double>::quiet_NaN();
+  double motor_amplitude = std::numeric_limits<double>::quiet_NaN();  ///< of the motor
   PredictedCycle balance{};  ///< the input's amplitude, the frequency, the period, stability
+  std::optional<PredictionError> error{};  ///< beside the exact motion that it predicts
 };
 
 struct DescribingAnalysis {
@@ -108,7 +118,7 @@ bool is_in_loop(const DescribingAnalysis& analysis);
 /// "gap, load held by friction", …
 const char* name_of(DescribedPart part);
 /// A clause: "the motor drives all inertia and viscous friction at all times", …
-const char* description_of(Assumption assumption);
+const char* name_of(Assumption assumption);
 
 // ---- beside the exact cycle ---------------------------------------------------------------------
 
@@ -124,15 +134,6 @@ struct ExactMotion {
 /// drives, whose motion is not predicted.
 std::vector<ExactMotion> exact_motions(const Answer& answer);
 
-/// Errors of a prediction: predicted over exact value, minus 1.
-struct PredictionError {
-  std::size_t exact = 0;  ///< index into the exact motions
-  double amplitude = std::numeric_limits<double>::quiet_NaN();
-  double motor_amplitude = std::numeric_limits<double>::quiet_NaN();
-  double period = std::numeric_limits<double>::quiet_NaN();
-  double frequency = std::numeric_limits<double>::quiet_NaN();
-};
-
 /// A cycle predicted for a part other than the gap counts as the whole drive's cycle if amplitude
 /// and period agree within this factor. Otherwise it is another motion and no error is reported.
 inline constexpr double same_cycle_factor = 2.0;
@@ -143,6 +144,9 @@ inline constexpr double same_cycle_factor = 2.0;
 std::optional<PredictionError> prediction_error(DescribedPart part,
                                                 const DescribedMotion& predicted,
                                                 const std::vector<ExactMotion>& exact);
+
+/// prediction_error() of each predicted cycle, beside the motions of the answer.
+void set_errors(std::vector<DescribingAnalysis>& analyses, const Answer& answer);
 
 /// Whether a predicted cycle is too small to be seen: below `unseen_share` of the backlash.
 inline constexpr double unseen_share = 1e-4;

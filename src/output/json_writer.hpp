@@ -1,0 +1,262 @@
+// Writes values as JSON: structs by the members that output/record.hpp knows.
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "gearlash/drive.hpp"
+#include "output/output_file.hpp"
+#include "output/record.hpp"
+
+namespace gearlash {
+
+/// A number that reads back exactly: infinity is "inf" or "-inf", NaN (not computed) null.
+std::string json_text(double value);
+/// In quotes; null for empty text.
+std::string json_text(std::string_view text);
+
+/// The value of a parameter: a number in SI, a word or the name of a file, a list, rows; or none.
+using ParameterValue = std::variant<std::monostate, double, std::string, std::vector<double>,
+                                    std::vector<std::vector<double>>>;
+/// Values by names, an object in JSON.
+template <class Value>
+using ByName = std::vector<std::pair<std::string, Value>>;
+
+/// Every parameter of the drive by its path, in the order of files; nothing for one that is not
+/// given and has no default.
+ByName<ParameterValue> parameter_values(const Drive& drive);
+/// The paths of the parameters with default values.
+std::vector<std::string> defaults_taken(const Drive& drive);
+
+/// Rows that are computed while they are written: {"columns": […], "rows": [[…], …]}.
+template <class Row>
+struct RowsOf {
+  std::function<void(const std::function<void(const Row&)>&)> each;
+};
+
+/// "CoulombFriction" is "coulomb friction".
+std::string name_in_words(std::string_view name);
+
+/// Numbers by json_text(), enumerations by their words, structs as objects of their members and of
+/// what they compute, variants of structs with their "kind", drives by parameter_values(). What is
+/// empty is null.
+class JsonWriter {
+ public:
+  enum class Layout : bool { lines, compact };
+
+  /// `sink` must outlive it.
+  explicit JsonWriter(const TextSink& sink, Layout layout = Layout::lines)
+      : sink_(sink), is_compact_(layout == Layout::compact) {}
+
+  template <class Type>
+  void value(const Type& value) {
+    using namespace records;
+    if constexpr (std::is_same_v<Type, double>) {
+      sink_(json_text(value));
+    } else if constexpr (std::is_same_v<Type, bool>) {
+      sink_(value ? "true" : "false");
+    } else if constexpr (std::is_integral_v<Type>) {
+      sink_(std::to_string(value));
+    } else if constexpr (std::is_convertible_v<const Type&, std::string_view>) {
+      sink_(json_text(std::string_view(value)));
+    } else if constexpr (IsWord<Type>) {
+      sink_(json_text(std::string_view(Words<Type>::named(value))));
+    } else if constexpr (std::is_same_v<Type, std::monostate>) {
+      sink_("null");
+    } else if constexpr (std::is_same_v<Type, std::complex<double>>) {
+      object([&] {
+        member("real", value.real());
+        member("imaginary", value.imag());
+      });
+    } else if constexpr (std::is_same_v<Type, Drive>) {
+      this->value(parameter_values(value));
+    } else if constexpr (IsRecord<Type>) {
+      object([&] { members(value); });
+    } else if constexpr (is_a<Type, std::optional>) {
+      value ? this->value(*value) : sink_("null");
+    } else if constexpr (is_a<Type, std::variant>) {
+      std::visit([&](const auto& held) { alternative(held); }, value);
+    } else if constexpr (is_a<Type, RowsOf>) {
+      rows(value);
+    } else {
+      list(value);
+    }
+  }
+
+  template <class Type>
+  void member(std::string_view name, const Type& value) {
+    next_line();
+    sink_(json_text(name));
+    sink_(is_compact_ ? ":" : ": ");
+    this->value(value);
+  }
+
+  /// The members of a struct, within object().
+  template <class Struct>
+  void members(const Struct& value) {
+    const auto write = [&](const auto&... one) {
+      (member(one.name, std::invoke(one.place, value)), ...);
+    };
+    std::apply(write, records::Record<Struct>::members);
+    std::apply(write, records::Record<Struct>::computed);
+  }
+
+  template <class Contents>
+  void object(const Contents& contents) {
+    in_lines('{', '}', contents);
+  }
+
+ private:
+  template <class Type>
+  static constexpr bool is_short =
+      std::is_arithmetic_v<Type> || records::IsWord<Type> || records::is_a<Type, std::optional> ||
+      records::is_a<Type, std::variant>;
+
+  template <class Contents>
+  void in_lines(char first, char last, const Contents& contents) {
+    sink_(std::string_view(&first, 1));
+    const bool was_empty = std::exchange(is_empty_, true);
+    ++depth_;
+    contents();
+    --depth_;
+    if (!is_empty_) indent();
+    is_empty_ = was_empty;
+    sink_(std::string_view(&last, 1));
+  }
+
+  void next_line() {
+    if (!is_empty_) sink_(",");
+    is_empty_ = false;
+    indent();
+  }
+
+  void indent() {
+    if (!is_compact_) sink_("\n" + std::string(2 * depth_, ' '));
+  }
+
+  template <class Held>
+  void alternative(const Held& held) {
+    if constexpr (records::IsRecord<Held>) {
+      object([&] {
+        member("kind", name_in_words(records::Record<Held>::name));
+        members(held);
+      });
+    } else {
+      value(held);
+    }
+  }
+
+  /// Numbers and enumerators stand in one line.
+  template <class List>
+  void list(const List& list) {
+    using Element = std::remove_cvref_t<typename List::value_type>;
+    if constexpr (requires(Element element) { std::string_view(element.first); }) {
+      object([&] {
+        for (const auto& [name, of] : list) member(name, of);
+      });
+    } else if constexpr (is_short<Element>) {
+      sink_("[");
+      for (std::size_t i = 0; i < list.size(); ++i) {
+        if (i > 0) sink_(is_compact_ ? "," : ", ");
+        value(Element(list[i]));
+      }
+      sink_("]");
+    } else {
+      in_lines('[', ']', [&] {
+        for (const Element& element : list) {
+          next_line();
+          value(element);
+        }
+      });
+    }
+  }
+
+  /// All numbers and words of a struct, those of structs within it in their places.
+  template <class Struct, class Visit>
+  static void for_each_leaf(const Struct& value, const Visit& visit) {
+    const auto leaf = [&](const auto& one) {
+      const auto& of = value.*(one.place);
+      if constexpr (records::IsRecord<std::remove_cvref_t<decltype(of)>>) {
+        for_each_leaf(of, visit);
+      } else {
+        visit(one.name, of);
+      }
+    };
+    std::apply([&](const auto&... one) { (leaf(one), ...); }, records::Record<Struct>::members);
+  }
+
+  template <class Row>
+  void rows(const RowsOf<Row>& rows) {
+    object([&] {
+      std::vector<std::string> columns;
+      for_each_leaf(Row{}, [&](const char* name, const auto&) { columns.emplace_back(name); });
+      member("columns", columns);
+      next_line();
+      sink_("\"rows\": ");
+      in_lines('[', ']', [&] { rows.each([&](const Row& row) { this->row(row); }); });
+    });
+  }
+
+  template <class Row>
+  void row(const Row& row) {
+    next_line();
+    const char* separator = "[";
+    for_each_leaf(row, [&](const char*, const auto& value) {
+      sink_(separator);
+      this->value(value);
+      separator = ", ";
+    });
+    sink_("]");
+  }
+
+  const TextSink& sink_;
+  bool is_compact_;
+  std::size_t depth_ = 0;
+  bool is_empty_ = true;  ///< nothing stands yet within the innermost bracket
+};
+
+/// The JSON of a document with the name of its schema, and the defaults of its drive. Ends with a
+/// newline.
+template <records::IsDocument Document>
+void write_document(const Document& document, const TextSink& sink) {
+  JsonWriter writer(sink);
+  writer.object([&] {
+    writer.member("schema", records::Record<Document>::document);
+    writer.member("units", "SI");
+    writer.members(document);
+    if constexpr (requires {
+                    { document.drive } -> std::convertible_to<const Drive&>;
+                  }) {
+      writer.member("defaults", defaults_taken(document.drive));
+    }
+  });
+  sink("\n");
+}
+
+/// In one line.
+template <class Type>
+std::string json_of(const Type& value) {
+  std::string text;
+  const TextSink sink = [&](std::string_view part) { text += part; };
+  JsonWriter(sink, JsonWriter::Layout::compact).value(value);
+  return text;
+}
+
+template <records::IsDocument Document>
+std::string document_text(const Document& document) {
+  std::string text;
+  write_document(document, [&](std::string_view part) { text += part; });
+  return text;
+}
+
+}  // namespace gearlash
