@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "input/units.hpp"
 #include "output/columns.hpp"
 #include "picture/gnuplot.hpp"
 
@@ -334,6 +335,16 @@ std::string legend_commands(const Page& page, PictureFormat format) {
 }
 
 }  // namespace
+
+PictureFormat picture_format(const std::string& field, const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending == ".svg") return PictureFormat::svg;
+  if (ending == ".png") return PictureFormat::png;
+  if (ending == ".pdf") return PictureFormat::pdf;
+  refuse(field, path.string(), "must end in .svg, .png or .pdf");
+}
 
 std::string draw(const Plot& plot, PictureFormat format) {
   const Page page = page_of(plot);
