@@ -118,7 +118,7 @@ void place_column(const PlotColumn& column, double from, double to, double top, 
   std::size_t names = 0;
   for (const Panel& panel : column) names = std::max(names, longest(drawn_y(panel).tics));
   constexpr double shortest_names = 95.0;
-  const double left = from + std::max(shortest_names, 50.0 + letter * static_cast<double>(names));
+  const double left = from + std::max(shortest_names, 58.0 + letter * static_cast<double>(names));
   const double right = to - 0.03 * (to - from) - 1.0;
   for (const Panel& panel : column) {
     if (!panel.title.empty() && &panel != &column.front()) top += panel_title;
@@ -147,7 +147,7 @@ void place_legend(const Plot& plot, Page& page) {
     }
   }
   constexpr double sample = 6.0;  // letters
-  constexpr double line = 108.0;
+  constexpr double line = 88.0;
   page.legend_columns =
       std::clamp(static_cast<int>(line / (sample + static_cast<double>(length))), 1, 4);
   const auto entries = static_cast<double>(page.legend.size());
@@ -235,7 +235,7 @@ std::string axis_commands(char name, const PlotAxis& axis, const DrawnAxis& draw
 
 /// The names of the axes: gnuplot leaves out one of y for which it sees no room.
 std::string axis_labels(const PlacedPanel& placed) {
-  constexpr double from_numbers = 36.0;
+  constexpr double from_numbers = 46.0;
   const double left =
       placed.left - from_numbers - letter * static_cast<double>(longest(placed.y.tics));
   return fmt::format(

@@ -365,7 +365,7 @@ MapCurve arrow_of(const PaperLine& seen, const Window& window) {
 }
 
 Layer layer_of(const KeyPoint& point, const Window& window) {
-  Layer layer{.kind = LayerKind::marks, .name = point.legend, .mark = point.mark, .size = 1.2};
+  Layer layer{.kind = LayerKind::marks, .name = point.legend, .mark = point.mark, .size = 1.0};
   if (is_finite(point.at) && window.holds(point.at)) {
     layer.points = {map_point(point.at)};
   } else {
