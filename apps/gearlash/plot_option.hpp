@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "picture/picture.hpp"
-#include "picture/plot.hpp"
+#include "picture/gnuplot_renderer.hpp"
 #include "servo_options.hpp"
 
 namespace gearlash::cli {

@@ -160,7 +160,7 @@ Panel cell_panel(const Cells& cells, std::string x_name, std::string y_name) {
     panel.layers.push_back(
         {.kind = LayerKind::area, .colour = colour, .points = std::move(points)});
   }
-  panel.layers.push_back(std::move(dots));
+  if (!dots.points.empty()) panel.layers.push_back(std::move(dots));
   if (!cells.framed.empty()) panel.layers.push_back(std::move(frames));
   return panel;
 }

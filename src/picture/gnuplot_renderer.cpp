@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "input/units.hpp"
 #include "output/columns.hpp"
 #include "picture/gnuplot.hpp"
 
@@ -117,7 +118,7 @@ void place_column(const PlotColumn& column, double from, double to, double top, 
   std::size_t names = 0;
   for (const Panel& panel : column) names = std::max(names, longest(drawn_y(panel).tics));
   constexpr double shortest_names = 95.0;
-  const double left = from + std::max(shortest_names, 50.0 + letter * static_cast<double>(names));
+  const double left = from + std::max(shortest_names, 58.0 + letter * static_cast<double>(names));
   const double right = to - 0.03 * (to - from) - 1.0;
   for (const Panel& panel : column) {
     if (!panel.title.empty() && &panel != &column.front()) top += panel_title;
@@ -146,7 +147,7 @@ void place_legend(const Plot& plot, Page& page) {
     }
   }
   constexpr double sample = 6.0;  // letters
-  constexpr double line = 108.0;
+  constexpr double line = 88.0;
   page.legend_columns =
       std::clamp(static_cast<int>(line / (sample + static_cast<double>(length))), 1, 4);
   const auto entries = static_cast<double>(page.legend.size());
@@ -234,7 +235,7 @@ std::string axis_commands(char name, const PlotAxis& axis, const DrawnAxis& draw
 
 /// The names of the axes: gnuplot leaves out one of y for which it sees no room.
 std::string axis_labels(const PlacedPanel& placed) {
-  constexpr double from_numbers = 36.0;
+  constexpr double from_numbers = 46.0;
   const double left =
       placed.left - from_numbers - letter * static_cast<double>(longest(placed.y.tics));
   return fmt::format(
@@ -334,6 +335,16 @@ std::string legend_commands(const Page& page, PictureFormat format) {
 }
 
 }  // namespace
+
+PictureFormat picture_format(const std::string& field, const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending == ".svg") return PictureFormat::svg;
+  if (ending == ".png") return PictureFormat::png;
+  if (ending == ".pdf") return PictureFormat::pdf;
+  refuse(field, path.string(), "must end in .svg, .png or .pdf");
+}
 
 std::string draw(const Plot& plot, PictureFormat format) {
   const Page page = page_of(plot);

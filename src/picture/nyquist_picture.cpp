@@ -12,18 +12,99 @@
 
 #include "base/overloaded.hpp"
 #include "output/describe_report.hpp"
-#include "picture/nyquist_curves.hpp"
 #include "picture/paper.hpp"
+#include "question/loop/describing/harmonic_balance.hpp"
 
 namespace gearlash {
 namespace {
 
+using Complex = std::complex<double>;
 using drive::DescribedMotion;
 using drive::DescribedPart;
 using drive::DescribingAnalysis;
 
 constexpr double turn = 2.0 * std::numbers::pi;
 constexpr int label_digits = 3;
+
+// ---- the complex plane --------------------------------------------------------------------------
+
+/// The visible part. Both axes have the same scale.
+struct Window {
+  Complex corner;      ///< lower left
+  double scale = 1.0;  ///< pixels for 1
+  Complex size;        ///< pixels
+
+  Complex on_paper(const Complex& point) const { return (point - corner) * scale; }
+  Complex from_paper(const Complex& place) const { return corner + place / scale; }
+  /// `margin`: pixels.
+  bool holds(const Complex& point, double margin = 0.0) const {
+    const Complex place = on_paper(point);
+    return place.real() >= -margin && place.real() <= size.real() + margin &&
+           place.imag() >= -margin && place.imag() <= size.imag() + margin;
+  }
+};
+
+/// The window of that size around the points with a margin, larger on the left, where L comes from.
+Window window_around(const std::vector<Complex>& points, const Complex& size) {
+  Complex low = points.front();
+  Complex high = points.front();
+  for (const Complex& point : points) {
+    low = {std::min(low.real(), point.real()), std::min(low.imag(), point.imag())};
+    high = {std::max(high.real(), point.real()), std::max(high.imag(), point.imag())};
+  }
+  const Complex extent = high - low;
+  constexpr double filled = 0.68;  // share of the frame
+  const double scale =
+      filled / std::max({extent.imag() / size.imag(), extent.real() / size.real(), 1e-300});
+  const Complex spare = size / scale - extent;
+  return {low - Complex{0.65 * spare.real(), 0.5 * spare.imag()}, scale, size};
+}
+
+bool is_finite(const Complex& point) {
+  return std::isfinite(point.real()) && std::isfinite(point.imag());
+}
+
+MapPoint map_point(const Complex& point) { return {point.real(), point.imag()}; }
+
+Complex loop_at(const TransferFunction& loop, double frequency) {
+  return frequency_response(loop, frequency).value;
+}
+
+/// −1/N. Not finite if N is 0 or undefined.
+Complex inverse_gain(const Nonlinearity& nonlinearity, double amplitude) {
+  return -1.0 / describing_gain(nonlinearity, amplitude);
+}
+
+/// The unit of amplitude marks and the amplitude at which the curve −1/N begins.
+struct AmplitudeScale {
+  double unit;
+  const char* name;
+  double least;      ///< below it N is undefined, 0 or constant
+  bool is_relative;  ///< marks are typical multiples of the unit, else round numbers
+};
+
+AmplitudeScale scale_of(const Nonlinearity& nonlinearity) {
+  return std::visit(Overloaded{[](const FrictionControlledBacklash& play) -> AmplitudeScale {
+                                 return {0.5 * play.gap, "h", 0.5 * play.gap, true};
+                               },
+                               [](const InertiaControlledBacklash& play) -> AmplitudeScale {
+                                 return {0.5 * play.gap, "h", play.gap / std::numbers::pi, true};
+                               },
+                               [](const RelayWithHysteresis& relay) -> AmplitudeScale {
+                                 return {relay.half_width, "δ", relay.half_width, true};
+                               },
+                               [](const Saturation& saturation) -> AmplitudeScale {
+                                 const double linear = saturation.limit / saturation.slope;
+                                 return {linear, "T_max", linear, true};
+                               },
+                               [](const CoulombFriction&) -> AmplitudeScale {
+                                 return {1.0, "", 0.0, false};
+                               },
+                               [](const DeadZone& zone) -> AmplitudeScale {
+                                 return {zone.half_width, "h", zone.half_width, true};
+                               }},
+                    nonlinearity);
+}
 
 // ---- key points ---------------------------------------------------------------------------------
 
@@ -85,10 +166,6 @@ std::vector<KeyPoint> key_points(const NyquistPicture& picture) {
     }
   }
   return points;
-}
-
-bool is_finite(const Complex& point) {
-  return std::isfinite(point.real()) && std::isfinite(point.imag());
 }
 
 /// The linear limit of −1/N; nothing for a relay.
@@ -199,10 +276,45 @@ std::vector<Candidate> amplitudes(const DescribingAnalysis& analysis) {
 // ---- the drawing --------------------------------------------------------------------------------
 
 struct DrawnCurve {
-  Layer layer;
-  Trace trace;
-  std::vector<Candidate> marks;
+  Layer layer = {};
+  std::vector<Candidate> marks = {};
+  PaperLine seen = {};  ///< its visible points, not too close
 };
+
+/// Adds the curve's points in and near the window. The parameter runs from `low` to `high`, evenly
+/// in its logarithm.
+void trace(const std::function<Complex(double parameter)>& curve, const Bounds& range,
+           const Window& window, DrawnCurve& drawn) {
+  constexpr int steps = 20'000;
+  constexpr double near = 240.0;  // pixels
+  constexpr double apart = 1.5;
+  std::optional<Complex> last;
+  for (int i = 0; i <= steps; ++i) {
+    const Complex value =
+        curve(range.low * std::pow(range.high / range.low, static_cast<double>(i) / steps));
+    if (!is_finite(value) || !window.holds(value, near)) {
+      if (last) append({}, drawn.layer.points);
+      last.reset();
+      continue;
+    }
+    const Complex place = window.on_paper(value);
+    if (last && std::abs(place - *last) < apart) continue;
+    drawn.layer.points.push_back(map_point(value));
+    if (window.holds(value)) drawn.seen.push_back(place);
+    last = place;
+  }
+}
+
+/// −1/N, from the amplitude on at which it begins.
+void trace_inverse_gain(const Nonlinearity& nonlinearity, const Window& window, DrawnCurve& drawn) {
+  const double least = scale_of(nonlinearity).least;
+  // Without a least amplitude, −1/N is proportional to the amplitude.
+  const double size =
+      least > 0.0 ? least
+                  : window.size.imag() / window.scale / std::abs(inverse_gain(nonlinearity, 1.0));
+  trace([&](double excess) { return inverse_gain(nonlinearity, least + excess); },
+        {1e-8 * size, 1e6 * size}, window, drawn);
+}
 
 /// The unit of the amplitude marks.
 std::string meaning_of(const DescribingAnalysis& analysis, bool is_normalized) {
@@ -224,72 +336,49 @@ std::vector<DrawnCurve> traced_curves(const NyquistPicture& picture, const Windo
                                      Layer{.colour = "#009e73", .dashes = "4,3"},
                                      Layer{.colour = "#cc79a7", .dashes = "12,3,3,3"}};
   const TransferFunction& loop = picture.analyses.front().loop;
-  std::vector<DrawnCurve> curves = {
-      {{.name = "L(jω)", .colour = "#0072b2"}, traced_loop(loop, window), frequencies(picture)}};
-  for (std::size_t i = 0; i < picture.analyses.size(); ++i) {
-    const DescribingAnalysis& analysis = picture.analyses[i];
-    Layer layer = inverse_styles[i % inverse_styles.size()];
-    layer.name =
+  std::vector<DrawnCurve> curves = {{{.name = "L(jω)", .colour = "#0072b2"}, frequencies(picture)}};
+  trace([&](double frequency) { return loop_at(loop, frequency); }, natural_frequency_range(loop),
+        window, curves.front());
+  for (const DescribingAnalysis& analysis : picture.analyses) {
+    DrawnCurve curve{inverse_styles[(curves.size() - 1) % inverse_styles.size()],
+                     amplitudes(analysis)};
+    curve.layer.name =
         "−1/N(A)" + distinction(picture, analysis) + meaning_of(analysis, picture.is_normalized);
-    curves.push_back({std::move(layer), traced_inverse_gain(analysis.nonlinearity, window),
-                      amplitudes(analysis)});
-  }
-  for (DrawnCurve& curve : curves) {
-    constexpr double outside = 240.0;
-    for (const TracePoint& point : curve.trace) {
-      if (is_finite(point.value) && window.holds(point.value, outside)) {
-        curve.layer.points.push_back({point.value.real(), point.value.imag()});
-      } else {
-        append({}, curve.layer.points);
-      }
-    }
+    trace_inverse_gain(analysis.nonlinearity, window, curve);
+    curves.push_back(std::move(curve));
   }
   return curves;
 }
 
-/// The curve's visible points on paper, not too close.
-PaperLine seen_of(const DrawnCurve& curve, const Window& window) {
-  PaperLine seen;
-  for (const TracePoint& point : curve.trace) {
-    if (!is_finite(point.value) || !window.holds(point.value)) continue;
-    const Complex place = window.on_paper(point.value);
-    if (seen.empty() || std::abs(place - seen.back()) > 2.0) seen.push_back(place);
-  }
-  return seen;
-}
-
 /// The outline of an arrow's head towards a growing parameter, in the middle of the visible curve.
 MapCurve arrow_of(const PaperLine& seen, const Window& window) {
-  constexpr std::size_t apart = 4;
-  if (seen.size() < 2 * apart) return {};
+  constexpr std::size_t apart = 5;
+  if (seen.size() < 3 * apart) return {};
   const Complex tail = seen[seen.size() * 2 / 5];
   const Complex way = seen[seen.size() * 2 / 5 + apart] - tail;
   const Complex unit = way / std::abs(way);
   MapCurve outline;
   for (const Complex& corner : {Complex{13.0, 0.0}, Complex{0.0, 4.5}, Complex{0.0, -4.5}}) {
-    const Complex place = window.from_paper(tail + corner * unit);
-    outline.push_back({place.real(), place.imag()});
+    outline.push_back(map_point(window.from_paper(tail + corner * unit)));
   }
   return outline;
 }
 
 Layer layer_of(const KeyPoint& point, const Window& window) {
-  Layer layer{.kind = LayerKind::marks, .name = point.legend, .mark = point.mark, .size = 1.2};
+  Layer layer{.kind = LayerKind::marks, .name = point.legend, .mark = point.mark, .size = 1.0};
   if (is_finite(point.at) && window.holds(point.at)) {
-    layer.points = {{point.at.real(), point.at.imag()}};
+    layer.points = {map_point(point.at)};
   } else {
     layer.name += is_finite(point.at) ? "; outside" : ": none, too small";
   }
   return layer;
 }
 
-MapPoint map_point(const Complex& point) { return {point.real(), point.imag()}; }
-
 /// Adds the marks of the curves that have room around them, and all texts.
 void add_marks(const std::vector<KeyPoint>& points, const std::vector<DrawnCurve>& curves,
                const Window& window, Panel& panel) {
   std::vector<PaperLine> lines;
-  for (const DrawnCurve& curve : curves) lines.push_back(seen_of(curve, window));
+  for (const DrawnCurve& curve : curves) lines.push_back(curve.seen);
   std::vector<Complex> taken = {window.on_paper(0.0)};  // where unnumbered marks crowd
   for (const KeyPoint& point : points) {
     if (!is_finite(point.at)) continue;
@@ -363,7 +452,7 @@ Plot nyquist_plot(const NyquistPicture& picture) {
     if (!curve.layer.points.empty()) panel.layers.push_back(curve.layer);
     panel.layers.push_back({.kind = LayerKind::area,
                             .colour = curve.layer.colour,
-                            .points = arrow_of(seen_of(curve, window), window)});
+                            .points = arrow_of(curve.seen, window)});
   }
   for (const KeyPoint& point : points) panel.layers.push_back(layer_of(point, window));
   add_marks(points, curves, window, panel);

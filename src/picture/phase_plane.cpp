@@ -269,7 +269,7 @@ class PhasePanel {
                             .points = joined({{{left, ends.low}, {left, ends.high}},
                                               {{left, up}, {left + gap, up}},
                                               {{left + gap, ends.low}, {left + gap, ends.high}}})});
-    constexpr double half_a_word = 0.052;
+    constexpr double half_a_word = 0.06;
     panel.texts.push_back({.at = {left + gap + half_a_word * width, up}, .text = "backlash"});
   }
 

@@ -72,7 +72,6 @@ ShownEnd end_of(const std::vector<DrawnPiece>& pieces, double end_time, double p
       if (point.time < end.from) continue;
       end.load.include(point.load_position - point.reference);
       end.motor.include(point.motor_position - point.reference);
-      end.torques.include(point.motor_torque);
       if (is_first) end.reference = point.reference;
       if (end.reference && *end.reference != point.reference) end.reference.reset();
       is_first = false;

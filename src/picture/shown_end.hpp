@@ -15,7 +15,6 @@ struct ShownEnd {
   double period = 0.0;  ///< s, of the oscillation; 0: none
   Extent load;          ///< relative to the reference, from then on
   Extent motor;
-  Extent torques;                   ///< N m
   std::optional<double> reference;  ///< if it is constant from then on
   Extent load_third;                ///< relative to the reference, over the last third of the time
   Extent motor_third;

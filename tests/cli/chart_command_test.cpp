@@ -167,7 +167,7 @@ TEST(ChartCommand, TheLegendOfAPngIsClearOfTheAxis) {
   const struct {
     const char* curves;
     std::size_t rows;
-  } cases[] = {{"3", 1}, {"5", 2}, {"6", 3}, {"9", 4}, {"16", 6}};
+  } cases[] = {{"3", 2}, {"5", 2}, {"6", 3}, {"9", 4}, {"16", 6}};
   for (const auto& [curves, rows] : cases) {
     const Outcome run = run_tool({"chart", "--x", "damping=0.1:0.6:50", "--curves",
                                   std::string("inertia-ratio=0.1:10:") + curves + ":log",

@@ -1,6 +1,4 @@
 // Pictures: of the kind their ending says, well formed, the same for the same motion.
-#include "picture/picture.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

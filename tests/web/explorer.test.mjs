@@ -396,7 +396,7 @@ onPage('the charts of 1960 are drawn with the points of their program', 'view=th
   for (const figure of [7, 2, 11, 12, 15]) {
     await page.selectOption('#figure', String(figure));
     await page.waitForFunction((number) => document.querySelector('#card-figure svg')?.getAttribute('aria-label').includes(`${number}`), figure, { timeout: 60_000 });
-    await page.waitForFunction(() => document.querySelectorAll('#card-figure svg circle').length > 8);
+    await page.waitForFunction(() => document.querySelectorAll('#card-figure svg :is(circle, polygon)').length > 8);
   }
 });
 

@@ -24,22 +24,6 @@ export function tics(low: number, high: number, most: number): number[] {
   return values;
 }
 
-/** Tics of a logarithmic axis: 1, 2 and 5 of each power of ten, or powers alone if there are many. */
-export function logarithmicTics(low: number, high: number, most: number): number[] {
-  const decades = Math.log10(high / low);
-  const factors = decades * 3 <= most ? [1, 2, 5] : [1];
-  const every = Math.max(1, Math.ceil(decades / most));
-  const values: number[] = [];
-  for (let power = Math.floor(Math.log10(low)); power <= Math.ceil(Math.log10(high)); power += 1) {
-    if (factors.length === 1 && power % every !== 0) continue;
-    for (const factor of factors) {
-      const value = Number((factor * 10 ** power).toPrecision(12));
-      if (value >= low * (1 - 1e-9) && value <= high * (1 + 1e-9)) values.push(value);
-    }
-  }
-  return values.length > 1 ? values : tics(low, high, most);
-}
-
 /** "gearbox.backlash" as words. */
 export const inWords = (path: string): string => (path.split('.')[1] ?? path).replaceAll('_', ' ');
 

@@ -1,5 +1,5 @@
 // Draws charts as SVG: axes, curves, areas, marks and a legend.
-import { escapeText, logarithmicTics, short, tics } from './numbers';
+import { escapeText, short, tics } from './numbers';
 
 export interface Theme {
   ink: string;
@@ -161,22 +161,19 @@ function layerText(layer: Layer, x: Scale, y: Scale, bottom: number): string {
   }
 }
 
-function ticsOf(axis: PlotAxis, most: number): [string, number][] {
-  if (axis.tics && axis.tics.length > 0) return axis.tics;
-  const values = axis.logarithmic ? logarithmicTics(axis.low, axis.high, most) : tics(axis.low, axis.high, most);
-  return values.map((value) => [short(value, 6), value]);
-}
+const ticsOf = (axis: PlotAxis, most: number): [string, number][] =>
+  axis.tics ?? tics(axis.low, axis.high, most).map((value) => [short(value, 6), value]);
 
 function axesText(plot: Plot, x: Scale, y: Scale, width: number, bottom: number, theme: Theme): string {
   let text = '';
   for (const [name, value] of ticsOf(plot.x, width < 460 ? 4 : 7)) {
     const right = at(x(value));
-    text += `<line x1="${right}" x2="${right}" y1="${frame.top}" y2="${bottom}" stroke="${theme.grid}"/>`;
+    if (name) text += `<line x1="${right}" x2="${right}" y1="${frame.top}" y2="${bottom}" stroke="${theme.grid}"/>`;
     text += `<text x="${right}" y="${bottom + 17}" text-anchor="middle" fill="${theme.faint}" font-size="12">${name}</text>`;
   }
   for (const [name, value] of ticsOf(plot.y, 6)) {
     const down = at(y(value));
-    text += `<line y1="${down}" y2="${down}" x1="${frame.left}" x2="${width - frame.right}" stroke="${theme.grid}"/>`;
+    if (name) text += `<line y1="${down}" y2="${down}" x1="${frame.left}" x2="${width - frame.right}" stroke="${theme.grid}"/>`;
     text += `<text x="${frame.left - 7}" y="${Number(down) + 4}" text-anchor="end" fill="${theme.faint}" font-size="12">${name}</text>`;
   }
   const middle = (frame.left + width - frame.right) / 2;
