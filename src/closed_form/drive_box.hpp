@@ -6,8 +6,8 @@
 
 namespace gearlash {
 
-/// Bounds of the drivetrain's error relative to the drive's data. Precondition: `drivetrain` is that
-/// of the drive's proportional_servo().
+/// Bounds of the drivetrain's error relative to the drive's data. Precondition: `drivetrain` is
+/// that of the drive's proportional_servo().
 DataError data_error_of(const Drive& drive, const Drivetrain& drivetrain);
 /// Whether the rounding of the motor's friction can be bounded closely: with negative feedback it
 /// is a difference, of which more than a millionth must be left. Precondition as above.

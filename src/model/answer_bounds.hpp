@@ -10,9 +10,9 @@
 namespace gearlash {
 
 struct AnswerBounds {
-  bool may_rest = true;      ///< some of the drives may always come to rest
-  bool may_hunt = true;      ///< some may hunt
-  bool may_run_away = true;  ///< some may run away
+  bool may_rest = true;                     ///< some of the drives may always come to rest
+  bool may_hunt = true;                     ///< some may hunt
+  bool may_run_away = true;                 ///< some may run away
   std::map<Quantity, Bounds> quantities{};  ///< SI; of a motion: of the drives that hunt
 
   /// Empty if nothing is proved of the quantity.

@@ -117,8 +117,8 @@ TEST(EdgeNormalizedServoRanges, AllFaultsAreListed) {
                               .friction_ratio = 3.0,
                               .backlash = nan,
                               .restitution = 2.0};
-  EXPECT_THAT(fields(faults(servo)), ElementsAre("damping", "inertia_ratio", "friction_ratio",
-                                                 "backlash", "restitution"));
+  EXPECT_THAT(fields(faults(servo)),
+              ElementsAre("damping", "inertia_ratio", "friction_ratio", "backlash", "restitution"));
 }
 
 TEST(EdgeDataSheetRanges, AllFaultsAreListedForEachMotor) {

@@ -7,8 +7,8 @@
 
 namespace gearlash::web {
 
-/// Motions, each as columns of time, positions, torque, reference and, with an encoder, its reading,
-/// with its events. A motion with too many of them to draw has a reason instead.
+/// Motions, each as columns of time, positions, torque, reference and, with an encoder, its
+/// reading, with its events. A motion with too many of them to draw has a reason instead.
 Json motion_picture_json(const MotionPicture& picture, Numbers& numbers);
 
 /// Points are columns of x and y by turns.

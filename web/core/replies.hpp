@@ -52,7 +52,7 @@ struct DriveReply {
   std::vector<ParameterReply> parameters{};  ///< all of them, in the order of files
   std::vector<AbsentSection> absent{};       ///< what else it could have
   bool is_normal_form = false;               ///< whether it is given as the servo of 1960
-  bool is_searched = false;     ///< whether its motions are found by a search
+  bool is_searched = false;                  ///< whether its motions are found by a search
 };
 
 enum class Level : std::uint8_t { coarse, fine };

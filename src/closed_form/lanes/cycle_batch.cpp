@@ -126,9 +126,7 @@ void solve_alone(const NormalizedServo& servo, const CycleColumns& cycles, std::
   write_row(cycles, row, analysis.verdict, analysis.growth_at_rest, seen);
 }
 
-bool for_kernel(const NormalizedServo& servo) {
-  return servo.restitution == 0.0;
-}
+bool for_kernel(const NormalizedServo& servo) { return servo.restitution == 0.0; }
 
 }  // namespace
 

@@ -1,5 +1,4 @@
 // Derivatives of searched limit cycles: against the closed form, and against differences.
-#include "question/change/derivatives.hpp"
 #include "question/change/orbit_derivatives.hpp"
 
 #include <gmock/gmock.h>
@@ -20,6 +19,7 @@
 #include "gearlash/sensitivity.hpp"
 #include "general/attractors/found_cycle.hpp"
 #include "model/proportional_servo.hpp"
+#include "question/change/derivatives.hpp"
 #include "question/pd_drive.hpp"
 #include "question/series/toleranced_samples.hpp"
 
