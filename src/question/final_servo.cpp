@@ -44,13 +44,12 @@ std::optional<Drive> closed_form_drive(Drive drive) {
   return closed_form_servo(drive) ? std::optional(std::move(drive)) : std::nullopt;
 }
 
-std::optional<FinalServo> final_servo(const Drive& drive) {
-  const Drive at_rest = without_ended_signals(drive);
-  const std::optional<Drivetrain> drivetrain = drive::proportional_drivetrain(reduce(at_rest));
+std::optional<FinalServo> final_servo(const SoundDrive& drive) {
+  const std::optional<Drivetrain> drivetrain = drive::proportional_drivetrain(drive.settled());
   if (!drivetrain) return std::nullopt;
-  const std::optional<ClosedFormServo> servo = closed_form_servo(at_rest, *drivetrain);
+  const std::optional<ClosedFormServo> servo = closed_form_servo(drive.given(), *drivetrain);
   if (!servo) return std::nullopt;
-  return FinalServo{*servo, *drivetrain, stiffness_of(drive, *drivetrain)};
+  return FinalServo{*servo, *drivetrain, stiffness_of(drive.given(), *drivetrain)};
 }
 
 FinalServo servo_without_checks(const Drive& drive) {

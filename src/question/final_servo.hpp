@@ -8,6 +8,7 @@
 #include "gearlash/drive.hpp"
 #include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
+#include "model/sound_drive.hpp"
 
 namespace gearlash {
 
@@ -18,8 +19,8 @@ struct FinalServo {
   /// K, N m/rad; unknown for a normal form with a natural frequency.
   std::optional<double> stiffness{};
 };
-/// Empty where the general engine must answer. Precondition: the drive is sound.
-std::optional<FinalServo> final_servo(const Drive& drive);
+/// Empty where the general engine must answer.
+std::optional<FinalServo> final_servo(const SoundDrive& drive);
 /// The same for a drive that is known to have a closed form and settled signals, without checks of
 /// its numbers.
 FinalServo servo_without_checks(const Drive& drive);

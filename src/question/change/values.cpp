@@ -276,9 +276,10 @@ void narrow(const Drive& drive, const Axis& axis, const ClosedFormLine* line, co
       [&](double value) -> std::optional<Answer> {
         Drive changed = drive;
         set_on(axis, changed, value);
-        if (!faults(changed).empty()) return std::nullopt;
+        const std::optional<SoundDrive> sound = SoundDrive::of(std::move(changed));
+        if (!sound) return std::nullopt;
         Answer answer = line == nullptr ? Answer{} : line->answer_at(value);
-        add_figures(changed, wanted, answer, search.progress());
+        add_figures(*sound, wanted, answer, search.progress());
         return answer;
       },
       others, usual_evaluations, progress);

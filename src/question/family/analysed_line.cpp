@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 namespace gearlash {
@@ -37,10 +38,10 @@ bool AnalysedLine::Heard::go_on(double share, std::size_t bytes) {
 }
 
 AnalysedLine::Known AnalysedLine::analysed(double value, const Known& near) {
-  const Drive drive = drive_(value);
-  if (!faults(drive).empty() || is_stopped_) return nullptr;
+  const std::optional<SoundDrive> drive = SoundDrive::of(drive_(value));
+  if (!drive || is_stopped_) return nullptr;
   Known analysis = std::make_shared<const Analysis>(
-      analyse_until(drive, wanted_, is_hopeless, heard_, near.get()));
+      analyse_until(*drive, wanted_, is_hopeless, heard_, near.get()));
   ++evaluations_;
   const Answer& answer = analysis->answer;
   if (answer.search && !answer.search->is_complete) return nullptr;

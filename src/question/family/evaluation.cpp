@@ -31,7 +31,7 @@ class FigureColumns {
 
   void write(std::size_t row, const Drive& drive, Progress& progress) const {
     Answer answer;
-    if (faults(drive).empty()) add_figures(drive, wanted_, answer, progress);
+    if (const auto sound = SoundDrive::of(drive)) add_figures(*sound, wanted_, answer, progress);
     for (const Quantity quantity : quantities_) {
       columns_[quantity][row] = answer.value(quantity).value_or(not_a_number);
     }
@@ -217,15 +217,16 @@ class FamilyPart {
   }
 
   void place(std::size_t row, Drive drive) {
-    if (!faults(drive).empty()) return refuse(row);
+    std::optional<SoundDrive> sound = SoundDrive::of(std::move(drive));
+    if (!sound) return refuse(row);
     if (!asked_.one_by_one) {
-      if (const std::optional<FinalServo> servo = final_servo(drive)) {
-        return place(row, *servo, drive);
+      if (const std::optional<FinalServo> servo = final_servo(*sound)) {
+        return place(row, *servo, sound->given());
       }
     }
     servos_[row] = stand_in();
     searched_rows_.push_back(row);
-    searched_.push_back(std::move(drive));
+    searched_.push_back(std::move(*sound));
   }
 
   void place(std::size_t row, const FinalServo& servo, const Drive& drive) {
@@ -253,7 +254,7 @@ class FamilyPart {
         return progress.finish(1);
       };
       const std::size_t count = std::min(longest_run_, searched_.size() - first);
-      search_run(std::span<const Drive>(searched_).subspan(first, count), asked_.wanted, take,
+      search_run(std::span<const SoundDrive>(searched_).subspan(first, count), asked_.wanted, take,
                  progress);
       if (progress.is_stopped()) return;
     }
@@ -317,7 +318,7 @@ class FamilyPart {
   std::vector<Scale> scales_;
   std::map<std::size_t, ServoBox> boxes_;  ///< of servos computed from data with units
   std::vector<std::size_t> searched_rows_;
-  std::vector<Drive> searched_;
+  std::vector<SoundDrive> searched_;
   std::vector<std::size_t> refused_;
   std::size_t found_ = 0;  ///< answers of searched drives
 };
