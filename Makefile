@@ -14,7 +14,7 @@ BUILD := cmake --build --parallel $(JOBS) --preset
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo tool test python web web-serve web-bench bench versions clang sanitize fuzz oracle million followed believed designed tuned references referenced \
+.PHONY: help demo tool test python web web-serve web-bench bench versions clang sanitize fuzz oracle million followed believed designed mapped tuned references referenced \
         programs python-sweep dask-rates rivals derivatives seeded-faults single includes release-check \
         coverage readme readme-check docs docs-check format format-check tidy clean wheel package package-check
 
@@ -145,8 +145,12 @@ believed: programs  ## 500 random drives of six kinds: each start followed longe
 	$(RELEASE)/tests/oracle/drives/score_drives --kind frictionless --seeds 1:2000 --starts 0 --follow
 
 designed: programs  ## random design tasks of drives without a closed form, put back into them
-	GEARLASH_TASKS=300 $(RELEASE)/tests/test_question --gtest_filter='PropertySearchedValues*'
+	GEARLASH_TASKS=300 $(RELEASE)/tests/test_question --gtest_filter='PropertySearchedValues.Meet*'
+	GEARLASH_TASKS=60 $(RELEASE)/tests/test_question --gtest_filter='PropertySearchedValues.ACondition*'
 	$(RELEASE)/tests/oracle/drives/design_drives --count 300
+
+mapped: programs  ## 500 points of 20 maps, followed from neighbour to neighbour, beside their own searches
+	GEARLASH_MAPS=20 $(RELEASE)/tests/oracle/drives/test_oracle_drives --gtest_filter='PropertyFollowedMaps*'
 
 tuned: programs  ## gains of 20 industrial drives, tuned for their series, in the fixed-step simulator
 	tests/oracle/drives/tune-drives --build $(RELEASE)

@@ -376,9 +376,8 @@ std::vector<Fault> faults_of_size(const Drive& drive) {
   return check.faults();
 }
 
-/// Rules that join several numbers.
-std::vector<Fault> joint_faults(const Drive& drive) {
-  drive::ReducedDrive reduced = reduce(drive);
+/// Rules that join several numbers. `reduced`: reduce() of the drive.
+std::vector<Fault> joint_faults(const Drive& drive, drive::ReducedDrive reduced) {
   const std::vector<Fault> of_law = law_faults(drive);
   const bool is_sound = of_law.empty() && faults(reduced.controller).empty();
   if (must_be_a_servo(drive, reduced) && is_sound) {
@@ -403,6 +402,11 @@ std::vector<Fault> joint_faults(const Drive& drive) {
 }  // namespace
 
 std::vector<Fault> faults(const Drive& drive) {
+  drive::ReducedDrive reduced;
+  return faults(drive, reduced);
+}
+
+std::vector<Fault> faults(const Drive& drive, drive::ReducedDrive& reduced) {
   RangeCheck check;
   Drive mended = drive;  // without the faults of single numbers, which would cause others
   for (const Parameter& parameter : all_parameters_of_drives()) {
@@ -423,7 +427,8 @@ std::vector<Fault> faults(const Drive& drive) {
   if (drive.servo) check_normal_form(check, drive);
   std::vector<Fault> found = check.faults();
   if (!found.empty() && drive.servo) return found;
-  for (Fault& fault : joint_faults(mended)) {
+  reduced = reduce(mended);
+  for (Fault& fault : joint_faults(mended, reduced)) {
     const auto is_known = [&](const Fault& other) { return other.path == fault.path; };
     if (std::none_of(found.begin(), found.end(), is_known)) found.push_back(std::move(fault));
   }

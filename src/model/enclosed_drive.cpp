@@ -1,5 +1,7 @@
 #include "model/enclosed_drive.hpp"
 
+#include <utility>
+
 #include "model/number_members.hpp"
 
 namespace gearlash {
@@ -21,8 +23,10 @@ Drive signals_of(const drive::ReducedDrive& drive) {
 
 }  // namespace
 
-EnclosedDrive::EnclosedDrive(const Drive& drive)
-    : form_(reduce_settled(drive)),
+EnclosedDrive::EnclosedDrive(const Drive& drive) : EnclosedDrive(drive, reduce_settled(drive)) {}
+
+EnclosedDrive::EnclosedDrive(const Drive& drive, drive::ReducedDrive settled)
+    : form_(std::move(settled)),
       numbers_(reduced(drive, AsWritten())),
       course_(Reduction<AsWritten>(drive).course()) {
   numbers_.reference = form_.reference;

@@ -7,6 +7,7 @@
 #include "model/drive.hpp"
 #include "model/held_torques.hpp"
 #include "model/reduction.hpp"
+#include "model/sound_drive.hpp"
 
 namespace gearlash {
 
@@ -20,6 +21,7 @@ class EnclosedDrive {
  public:
   /// With its signals settled.
   EnclosedDrive(const Drive& drive);
+  EnclosedDrive(const SoundDrive& drive) : EnclosedDrive(drive.given(), drive.settled()) {}
   /// The numbers of a reduced drive, whose signals are settled, are data themselves.
   EnclosedDrive(const drive::ReducedDrive& drive);
 
@@ -39,6 +41,7 @@ class EnclosedDrive {
   const std::vector<HeldTorqueOf<Interval>>& held_torques() const { return held_torques_; }
 
  private:
+  EnclosedDrive(const Drive& drive, drive::ReducedDrive settled);
   void add_controller();
 
   drive::ReducedDrive form_;

@@ -58,7 +58,7 @@ std::optional<Drivetrain> proportional_drivetrain(const ReducedDrive& drive) {
 namespace gearlash {
 namespace {
 
-ProportionalServo servo_of(const Drive& drive, const Drivetrain& drivetrain) {
+ProportionalServo servo_with(const Drive& drive, const Drivetrain& drivetrain) {
   ProportionalServo servo{.drivetrain = drivetrain};
   if (!drive.servo || is_normalized(drive)) servo.stiffness = drivetrain.stiffness;
   if (!drive.servo) {
@@ -77,20 +77,25 @@ ProportionalServo servo_of(const Drive& drive, const Drivetrain& drivetrain) {
   return servo;
 }
 
+/// `reduced`: the drive at the load's shaft.
+std::optional<ProportionalServo> servo_of(const Drive& drive, const drive::ReducedDrive& reduced) {
+  const std::optional<Drivetrain> drivetrain = drive::proportional_drivetrain(reduced);
+  if (!drivetrain || (!drive.servo && !faults(*drivetrain).empty())) return std::nullopt;
+  return servo_with(drive, *drivetrain);
+}
+
 }  // namespace
 
 std::optional<ProportionalServo> proportional_servo(const Drive& drive) {
-  const std::optional<Drivetrain> drivetrain = drive::proportional_drivetrain(reduce(drive));
-  if (!drivetrain || (!drive.servo && !faults(*drivetrain).empty())) return std::nullopt;
-  return servo_of(drive, *drivetrain);
+  return servo_of(drive, reduce(drive));
 }
 
-std::optional<ProportionalServo> settled_servo(const Drive& drive) {
-  return proportional_servo(without_ended_signals(drive));
+std::optional<ProportionalServo> settled_servo(const SoundDrive& drive) {
+  return servo_of(drive.given(), drive.settled());
 }
 
 ProportionalServo servo_without_checks(const Drive& drive) {
-  return servo_of(drive, referred_drivetrain(drive));
+  return servo_with(drive, referred_drivetrain(drive));
 }
 
 std::optional<Drive> normal_form_of(const Drive& drive) {

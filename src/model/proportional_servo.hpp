@@ -6,6 +6,7 @@
 
 #include "model/drive.hpp"
 #include "model/drivetrain.hpp"
+#include "model/sound_drive.hpp"
 
 namespace gearlash {
 
@@ -31,7 +32,7 @@ inline constexpr char permitted_with_servo[] =
 /// Empty for any other drive. Precondition: every parameter is in its range.
 std::optional<ProportionalServo> proportional_servo(const Drive& drive);
 /// The same once the drive's signals have settled.
-std::optional<ProportionalServo> settled_servo(const Drive& drive);
+std::optional<ProportionalServo> settled_servo(const SoundDrive& drive);
 /// The same for a drive that is known to be one and to have settled signals, without checks of its
 /// numbers.
 ProportionalServo servo_without_checks(const Drive& drive);

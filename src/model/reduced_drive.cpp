@@ -39,21 +39,16 @@ double gain_scale(const Drive& drive) { return Reduction<AsRead>(drive).gain_sca
 
 ReferredOutput refer_output(const Drive& drive) { return Reduction<AsRead>(drive).output(); }
 
-drive::ReducedDrive reduce(const Drive& drive) {
-  drive::ReducedDrive result = reduced(drive, AsRead());
-  if (result.gravity.torque != 0.0) {
-    result.load_torque = drive::shifted(result.load_torque, result.gravity.torque);
-  }
-  return result;
-}
-
-drive::ReducedDrive reduce_settled(const Drive& drive) {
-  drive::ReducedDrive reduced = reduce(drive);
+drive::ReducedDrive with_settled_signals(drive::ReducedDrive reduced) {
   reduced.reference = drive::settled(reduced.reference);
   reduced.load_torque = drive::settled(reduced.load_torque);
   // A reference that does not move has nothing to be compensated.
   if (std::holds_alternative<double>(reduced.reference)) reduced.feedforward = {};
   return reduced;
+}
+
+drive::ReducedDrive reduce_settled(const Drive& drive) {
+  return with_settled_signals(reduce(drive));
 }
 
 namespace {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "gearlash/drive.hpp"
 #include "model/drive.hpp"
@@ -54,7 +55,11 @@ ReferredOutput refer_output(const Drive& drive);
 
 /// All at the load's shaft. Faulty numbers give a faulty result; see faults().
 drive::ReducedDrive reduce(const Drive& drive);
+/// The faults of the drive. If there are none, reduce() of it is written to `reduced`.
+std::vector<Fault> faults(const Drive& drive, drive::ReducedDrive& reduced);
 /// With the final course of its signals, on which hunting depends.
+drive::ReducedDrive with_settled_signals(drive::ReducedDrive reduced);
+/// The same of reduce().
 drive::ReducedDrive reduce_settled(const Drive& drive);
 
 /// Replaces a normal form by a drive with equivalent numbers: torque control, n = 1 and

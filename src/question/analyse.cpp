@@ -321,7 +321,7 @@ struct SearchScope {
   std::vector<drive::ShaftStates> starts{};  ///< likewise
 };
 
-Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress,
+Analysis analysed(const SoundDrive& drive, const Wanted& wanted, Progress& progress,
                   const SearchScope& scope);
 
 /// Whether the motion that a headline names is of so few encoder steps that they may be its cause.
@@ -387,16 +387,16 @@ void take_for_computed(Answer& answer) {
   answer.bounds.reset();
 }
 
-Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress,
+Analysis analysed(const SoundDrive& sound, const Wanted& wanted, Progress& progress,
                   const SearchScope& scope) {
-  require_none(faults(drive));
+  const Drive& drive = sound.given();
   Analysis analysis;
-  analysis.reduced = reduce_settled(drive);
-  if ((analysis.servo = settled_servo(drive))) {
+  analysis.reduced = sound.settled();
+  if ((analysis.servo = settled_servo(sound))) {
     ClosedAnswer found = closed_answer(drive, *analysis.servo, wanted.proofs);
     analysis.answer = std::move(found.answer);
     analysis.closed = std::move(found.cycles);
-  } else if (is_absent_by_energy(drive)) {
+  } else if (is_absent_by_energy(sound)) {
     analysis.search = drive::AttractorSearch{};
     analysis.answer = answer_by_energy(analysis.reduced);
   } else {
@@ -416,10 +416,10 @@ Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress,
     }
     analysis.answer = answer_of(*analysis.search, analysis.reduced);
   }
-  add_figures(drive, wanted, analysis.answer, progress);
+  add_figures(sound, wanted, analysis.answer, progress);
   if (wanted.ceiling) {
     Ceiling& ceiling = *analysis.answer.ceiling;
-    ceiling.mesh_torque = highest_mean_mesh_torque(drive);
+    ceiling.mesh_torque = highest_mean_mesh_torque(sound);
     ceiling.is_below_limit = has_torque_limit(analysis.reduced);
   }
   // The motion from which a ceiling is measured stands in the end, unless a sine drives it.
@@ -427,7 +427,7 @@ Analysis analysed(const Drive& drive, const Wanted& wanted, Progress& progress,
   if (wanted.quantization && analysis.search && is_of_few_steps(analysis.answer)) {
     analysis.answer.is_quantization = is_quantization(drive, *analysis.search, wanted, progress);
   }
-  std::vector<Note> notes = notes_on(drive);
+  std::vector<Note> notes = notes_on(sound);
   if (!proves()) {
     take_for_computed(analysis.answer);
     notes.push_back(
@@ -480,9 +480,9 @@ void ask_for(Quantity quantity, const Drive& base, Wanted& wanted) {
   }
 }
 
-void add_figures(const Drive& of, const Wanted& wanted, Answer& answer, Progress& progress) {
+void add_figures(const SoundDrive& of, const Wanted& wanted, Answer& answer, Progress& progress) {
   if (wanted.ceiling) answer.ceiling = ceiling_of(of);
-  const drive::ReducedDrive drive = reduce_settled(of);
+  const drive::ReducedDrive& drive = of.settled();
   // The closed form permits what cannot be followed: no gap, which the loop leaves out anyway, and
   // a shaft without inertia.
   drive::ReducedDrive with_gap = drive;
@@ -500,16 +500,16 @@ std::optional<AnswerBounds> proved_bounds(const Drive& drive, const Answer& answ
   return bounds_of(box_of(drive, *servo), flight_time_of(answer));
 }
 
-Analysis analyse_in_full(const Drive& drive, const Wanted& wanted, Progress& progress) {
+Analysis analyse_in_full(const SoundDrive& drive, const Wanted& wanted, Progress& progress) {
   return analysed(drive, wanted, progress, {});
 }
 
-Analysis analyse_near(const Drive& drive, const Analysis& near, const Wanted& wanted,
+Analysis analyse_near(const SoundDrive& drive, const Analysis& near, const Wanted& wanted,
                       Progress& progress) {
   return analysed(drive, wanted, progress, {.near = &near});
 }
 
-Analysis analyse_until(const Drive& drive, const Wanted& wanted, const IsEnough& is_enough,
+Analysis analyse_until(const SoundDrive& drive, const Wanted& wanted, const IsEnough& is_enough,
                        Progress& progress, const Analysis* near) {
   return analysed(drive, wanted, progress, {.near = near, .is_enough = is_enough});
 }

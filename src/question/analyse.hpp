@@ -10,6 +10,7 @@
 #include "model/answer_bounds.hpp"
 #include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
+#include "model/sound_drive.hpp"
 
 namespace gearlash {
 
@@ -24,18 +25,17 @@ struct Analysis {
 };
 
 /// Answers for a drive. Only the final value, ramp or sine of a reference or load torque matters.
-/// Throws InvalidInput for an unsound drive.
-Analysis analyse_in_full(const Drive& drive, const Wanted& wanted = {},
+Analysis analyse_in_full(const SoundDrive& drive, const Wanted& wanted = {},
                          Progress& progress = no_progress());
 
 /// The same for a drive that differs slightly from one that was analysed: by follow_attractors(),
 /// else by a search. Other drives are analysed afresh.
-Analysis analyse_near(const Drive& drive, const Analysis& near, const Wanted& wanted = {},
+Analysis analyse_near(const SoundDrive& drive, const Analysis& near, const Wanted& wanted = {},
                       Progress& progress = no_progress());
 
 /// The same, but where a search is needed it ends with the first start after which `is_enough`.
 /// `near`: as of analyse_near(), or nullptr.
-Analysis analyse_until(const Drive& drive, const Wanted& wanted,
+Analysis analyse_until(const SoundDrive& drive, const Wanted& wanted,
                        const std::function<bool(const drive::AttractorSearch&)>& is_enough,
                        Progress& progress = no_progress(), const Analysis* near = nullptr);
 
@@ -57,7 +57,7 @@ bool is_figure(Quantity quantity);
 void ask_for(Quantity quantity, const Drive& base, Wanted& wanted);
 
 /// What is computed without the motions that the drive ends in: ceiling, linear loop and step.
-void add_figures(const Drive& drive, const Wanted& wanted, Answer& answer, Progress& progress);
+void add_figures(const SoundDrive& drive, const Wanted& wanted, Answer& answer, Progress& progress);
 
 /// The answer that follows from a search. `reduced`: the searched drive.
 Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive& reduced);

@@ -38,7 +38,8 @@ std::string text_on_firmware(const Drive& drive) {
 
 }  // namespace
 
-std::vector<Note> notes_on(const Drive& drive) {
+std::vector<Note> notes_on(const SoundDrive& sound) {
+  const Drive& drive = sound.given();
   std::vector<Note> notes;
   if (drive.is_rounded) {
     notes.push_back({"rounded-numbers",
@@ -69,7 +70,7 @@ std::vector<Note> notes_on(const Drive& drive) {
                            "load.coulomb."});
   }
   if (drive.load.gravity != 0.0) {
-    const drive::Gravity gravity = reduce(drive).gravity;
+    const drive::Gravity& gravity = sound.settled().gravity;
     constexpr double degrees = 180.0 / std::numbers::pi;
     notes.push_back({"gravity", "Gravity is linearised about " +
                                     text_of((drive.load.gravity_angle + gravity.angle) * degrees) +

@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "gearlash/answer.hpp"
-#include "gearlash/drive.hpp"
+#include "model/sound_drive.hpp"
 
 namespace gearlash {
 
 /// Codes: "assumed-encoder" (where it is taken to be), "firmware" (the gains that its registers
 /// mean), "no-load-current" (the dry friction that it gives), "efficiency" (left out), "gravity"
-/// (its torque and stiffness where the reference ends). Precondition: a sound drive.
-std::vector<Note> notes_on(const Drive& drive);
+/// (its torque and stiffness where the reference ends).
+std::vector<Note> notes_on(const SoundDrive& sound);
 
 }  // namespace gearlash

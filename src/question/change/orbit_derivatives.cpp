@@ -4,10 +4,13 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "base/range_check.hpp"
 #include "general/attractors/found_cycle.hpp"
 #include "hybrid/disturbances.hpp"
+#include "model/sound_drive.hpp"
 #include "question/axis.hpp"
 #include "question/change/derivatives.hpp"
 
@@ -83,8 +86,9 @@ const drive::FoundCycle* cycle_in_practice(const Analysis& analysis) {
 Answer answer_beside(Drive drive, const Axis& axis, double value,
                      const drive::SearchSetting& setting, const drive::FoundCycle& cycle) {
   set_on(axis, drive, value);
-  if (!faults(drive).empty()) return {};
-  const drive::SearchSetting beside = drive::search_setting(reduce_settled(drive));
+  const std::optional<SoundDrive> sound = SoundDrive::of(std::move(drive));
+  if (!sound) return {};
+  const drive::SearchSetting beside = drive::search_setting(sound->settled());
   const auto orbit = neighbouring_orbit(beside.system, cycle.orbit, setting.system);
   if (!orbit || orbit->events.size() != cycle.orbit.events.size()) return {};
   const drive::FoundCycle found = measured(beside, *orbit, {});

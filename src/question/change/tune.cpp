@@ -14,7 +14,7 @@
 #include "base/special_numbers.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
-#include "model/reduced_drive.hpp"
+#include "model/sound_drive.hpp"
 #include "numeric/box_minimum.hpp"
 #include "question/analyse.hpp"
 #include "question/axis.hpp"
@@ -113,9 +113,9 @@ class Units {
   }
 
   JudgedLoop loop(std::size_t unit, const Values& tuned) const {
-    const Drive drive = this->drive(unit, tuned);
-    if (!faults(drive).empty()) return {.lacks = unsound};
-    const auto loop = drive::loop_figures(reduce(drive));
+    const std::optional<SoundDrive> drive = SoundDrive::of(this->drive(unit, tuned));
+    if (!drive) return {.lacks = unsound};
+    const auto loop = drive::loop_figures(drive->settled());
     if (!loop) return {};  // of a relay
     if (!loop->is_stable) return {.lacks = without_margin + 1.0};
     const double margin = loop->phase_margin.value_or(infinity);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gearlash/sensitivity.hpp"
+#include "model/sound_drive.hpp"
 #include "question/analyse.hpp"
 #include "question/axis.hpp"
 #include "question/change/derivatives.hpp"
@@ -29,7 +30,7 @@ bool is_of_cycle(Quantity quantity) {
 
 Answer with_loop(const Drive& drive) {
   Answer answer;
-  if (faults(drive).empty()) answer.loop = drive::loop_figures(reduce(drive));
+  if (const auto sound = SoundDrive::of(drive)) answer.loop = drive::loop_figures(sound->settled());
   return answer;
 }
 

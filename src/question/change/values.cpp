@@ -275,10 +275,10 @@ void narrow(const Drive& drive, const Axis& axis, const ServoLine* line, const T
   const Wanted wanted = wanted_for(others, drive);
   const DriveAlong along = drives_along(axis, drive);
   JudgedLine search(along, answered_by([&](double value) -> std::optional<Answer> {
-                      const Drive changed = along(value);
-                      if (!faults(changed).empty()) return std::nullopt;
+                      const std::optional<SoundDrive> changed = SoundDrive::of(along(value));
+                      if (!changed) return std::nullopt;
                       Answer answer = line == nullptr ? Answer{} : line->answer_at(value);
-                      add_figures(changed, wanted, answer, search.line().progress());
+                      add_figures(*changed, wanted, answer, search.line().progress());
                       return answer;
                     }),
                     usual_evaluations, others, progress);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 namespace gearlash {
@@ -32,10 +33,10 @@ AnalysedLine::AnalysedLine(const DriveAlong& drive, const Wanted& wanted, std::s
     : AnalysedLine(
           drive,
           [drive, wanted](double value, const Analysis* near, Progress& heard) -> Known {
-            const Drive there = drive(value);
-            if (!faults(there).empty()) return nullptr;
+            const std::optional<SoundDrive> there = SoundDrive::of(drive(value));
+            if (!there) return nullptr;
             return std::make_shared<const Analysis>(
-                analyse_until(there, wanted, is_hopeless, heard, near));
+                analyse_until(*there, wanted, is_hopeless, heard, near));
           },
           usual, progress) {}
 

@@ -33,7 +33,7 @@ class FigureColumns {
 
   void write(std::size_t row, const Drive& drive, Progress& progress) const {
     Answer answer;
-    if (faults(drive).empty()) add_figures(drive, wanted_, answer, progress);
+    if (const auto sound = SoundDrive::of(drive)) add_figures(*sound, wanted_, answer, progress);
     for (const Quantity quantity : quantities_) {
       columns_[quantity][row] = answer.value(quantity).value_or(not_a_number);
     }
@@ -222,15 +222,16 @@ class FamilyPart {
   }
 
   void place(std::size_t row, Drive drive) {
-    if (!faults(drive).empty()) return leave_out(row, Means::none);
+    std::optional<SoundDrive> sound = SoundDrive::of(std::move(drive));
+    if (!sound) return leave_out(row, Means::none);
     if (!asked_.one_by_one) {
-      if (const std::optional<ProportionalServo> servo = settled_servo(drive)) {
-        return place(row, *servo, drive);
+      if (const std::optional<ProportionalServo> servo = settled_servo(*sound)) {
+        return place(row, *servo, sound->given());
       }
     }
     leave_out(row, Means::search);
     searched_rows_.push_back(row);
-    searched_.push_back(std::move(drive));
+    searched_.push_back(std::move(*sound));
   }
 
   void place(std::size_t row, const ProportionalServo& servo, const Drive& drive) {
@@ -257,7 +258,7 @@ class FamilyPart {
         return progress.finish(1);
       };
       const std::size_t count = std::min(longest_run_, searched_.size() - first);
-      search_run(std::span<const Drive>(searched_).subspan(first, count), asked_.wanted, take,
+      search_run(std::span<const SoundDrive>(searched_).subspan(first, count), asked_.wanted, take,
                  progress);
       if (progress.is_stopped()) return;
     }
@@ -314,7 +315,7 @@ class FamilyPart {
   std::vector<std::pair<std::size_t, SolvedScale>> scales_;
   std::map<std::size_t, ServoBox> boxes_;  ///< of servos computed from data with units
   std::vector<std::size_t> searched_rows_;
-  std::vector<Drive> searched_;
+  std::vector<SoundDrive> searched_;
   std::size_t found_ = 0;  ///< answers of searched drives
 };
 

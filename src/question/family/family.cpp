@@ -33,6 +33,12 @@ double* place_in(Drive& drive, std::string_view path) {
   return nullptr;
 }
 
+/// Empty for an unsound drive, or one that must be searched.
+std::optional<ProportionalServo> servo_of(const Drive& drive) {
+  const std::optional<SoundDrive> sound = SoundDrive::of(drive);
+  return sound ? settled_servo(*sound) : std::nullopt;
+}
+
 /// The servo of a normal form whose own numbers do not matter, because they vary.
 std::optional<ProportionalServo> shared_servo(const Drive& drive) {
   Drive any = drive;  // because the drive's own numbers may be at fault
@@ -41,7 +47,7 @@ std::optional<ProportionalServo> shared_servo(const Drive& drive) {
                          .friction_ratio = 0.5,
                          .backlash = 1.0,
                          .natural_frequency = drive.servo->natural_frequency};
-  std::optional<ProportionalServo> servo = faults(any).empty() ? settled_servo(any) : std::nullopt;
+  std::optional<ProportionalServo> servo = servo_of(any);
   if (!servo) return servo;
   const NormalForm& form = *drive.servo;
   servo->servo = {.damping = form.damping,
@@ -120,10 +126,10 @@ Family::Family(Drive base, const std::vector<Axis>& axes, Breakaway breakaway)
   bool are_all_closed = !normal_form_;
   for (const std::vector<double>& corner : corners_of(axes)) {
     const Drive drive = drive_at(corner);
-    const bool is_sound = faults(drive).empty();
-    const std::optional<ProportionalServo> servo = is_sound ? settled_servo(drive) : std::nullopt;
+    const std::optional<SoundDrive> sound = SoundDrive::of(drive);
+    const std::optional<ProportionalServo> servo = sound ? settled_servo(*sound) : std::nullopt;
     are_all_closed = are_all_closed && servo;
-    if (!is_sound) continue;
+    if (!sound) continue;
     (servo ? engines_.solution : engines_.search) = true;
     if (servo && servo->servo.restitution > 0.0) engines_.bounces = true;
     if (are_all_closed && !closed_) closed_ = without_ended_signals(drive);
@@ -143,8 +149,7 @@ std::optional<ProportionalServo> Family::servo_at(std::span<const double> values
     point.servo = normal_form_at(values);
     return faults(point.servo).empty() ? std::optional(point) : std::nullopt;
   }
-  const Drive drive = drive_at(values);
-  return faults(drive).empty() ? settled_servo(drive) : std::nullopt;
+  return servo_of(drive_at(values));
 }
 
 FamilyMember::FamilyMember(const Family& family) : drive_(family.closed_) {

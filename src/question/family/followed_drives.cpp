@@ -17,7 +17,7 @@ bool are_alike(const Answer& one, const Answer& other) {
 
 class Run {
  public:
-  Run(std::span<const Drive> drives, const Wanted& wanted, const AnswerSink& take,
+  Run(std::span<const SoundDrive> drives, const Wanted& wanted, const AnswerSink& take,
       Progress& progress)
       : drives_(drives), wanted_(wanted), take_(take), progress_(progress) {}
 
@@ -60,7 +60,7 @@ class Run {
     }
   }
 
-  std::span<const Drive> drives_;
+  std::span<const SoundDrive> drives_;
   const Wanted& wanted_;
   const AnswerSink& take_;
   Progress& progress_;
@@ -69,7 +69,7 @@ class Run {
 
 }  // namespace
 
-void search_run(std::span<const Drive> drives, const Wanted& wanted, const AnswerSink& take,
+void search_run(std::span<const SoundDrive> drives, const Wanted& wanted, const AnswerSink& take,
                 Progress& progress) {
   Run(drives, wanted, take, progress).answer_all();
 }

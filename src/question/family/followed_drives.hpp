@@ -5,7 +5,7 @@
 #include <functional>
 #include <span>
 
-#include "gearlash/drive.hpp"
+#include "model/sound_drive.hpp"
 #include "question/analyse.hpp"
 
 namespace gearlash {
@@ -19,9 +19,9 @@ using AnswerSink = std::function<bool(std::size_t index, const Answer& answer)>;
 /// Answers in any order, each once. The first and the last drive are searched afresh. Where they
 /// have motions of one kind, those between are followed from neighbour to neighbour
 /// (analyse_near()), else the drive half-way is searched afresh too, and so on. Something that
-/// appears and vanishes again between two drives searched afresh may be missed. Precondition: sound
-/// drives, which need a search.
-void search_run(std::span<const Drive> drives, const Wanted& wanted, const AnswerSink& take,
+/// appears and vanishes again between two drives searched afresh may be missed. Precondition:
+/// drives that need a search.
+void search_run(std::span<const SoundDrive> drives, const Wanted& wanted, const AnswerSink& take,
                 Progress& progress);
 
 }  // namespace gearlash

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "base/range_check.hpp"
 #include "general/attractors/search_setting.hpp"
 #include "hybrid/continuation.hpp"
-#include "model/reduced_drive.hpp"
+#include "model/sound_drive.hpp"
 
 namespace gearlash {
 namespace {
@@ -32,9 +32,7 @@ BorderKind kind_of(hybrid::BifurcationKind kind) {
 Border followed_end_of_cycle(const DriveAlong& drive, const drive::FoundCycle& cycle, double from,
                              double to, Progress& progress) {
   const hybrid::Family family = [&](double value) {
-    const Drive changed = drive(value);
-    require_none(faults(changed));
-    return drive::search_setting(reduce_settled(changed)).system.system();
+    return drive::search_setting(SoundDrive(drive(value)).settled()).system.system();
   };
   hybrid::ContinuationOptions options{.low = std::min(from, to),
                                       .high = std::max(from, to),
@@ -101,8 +99,9 @@ std::optional<FollowedCycle> CycleFollowing::step(const FollowedCycle& from,
   constexpr double alike = 0.25;
   Drive there = drive_;
   set_on(axis_, there, parameter);
-  if (!faults(there).empty()) return std::nullopt;
-  const drive::AttractorSearch found = drive::follow_cycles(reduce_settled(there), from.context);
+  const std::optional<SoundDrive> sound = SoundDrive::of(std::move(there));
+  if (!sound) return std::nullopt;
+  const drive::AttractorSearch found = drive::follow_cycles(sound->settled(), from.context);
   if (found.cycles.empty()) return std::nullopt;
   FollowedCycle next = known(parameter, found, found.cycles.front());
   const double size = std::max(from.cycle.motor_amplitude, from.cycle.amplitude);

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <string_view>
 
 #include "base/on_threads.hpp"
 #include "base/seeded_draws.hpp"
@@ -19,23 +18,6 @@ namespace {
 
 constexpr int values_on_grid = 9;
 constexpr double reach = 5.0;
-
-std::vector<std::string_view> numbers_of(const Drive& drive) {
-  constexpr std::array paths = {
-      "controller.proportional", "controller.integral",   "controller.derivative",
-      "controller.position",     "controller.speed",      "controller.speed_integral",
-      "gearbox.backlash",        "motor.inertia",         "load.inertia",
-      "motor.friction",          "load.friction",         "load.coulomb",
-      "contact.stiffness",       "contact.restitution",   "sampling.delay",
-      "sampling.period",         "sensor.counts_per_turn"};
-  std::vector<std::string_view> numbers;
-  for (const std::string_view path : paths) {
-    const Axis axis{.path = std::string(path)};
-    if (parameter_of(axis, drive) == nullptr) continue;
-    if (present_value(axis, drive).value_or(0.0) > 0.0) numbers.push_back(path);
-  }
-  return numbers;
-}
 
 std::string text_of(const char* format, double value) {
   char text[64];
@@ -132,6 +114,23 @@ void scan(const DesignTask& task, DesignCheck& check) {
 }
 
 }  // namespace
+
+std::vector<std::string_view> numbers_of(const Drive& drive) {
+  constexpr std::array paths = {
+      "controller.proportional", "controller.integral",   "controller.derivative",
+      "controller.position",     "controller.speed",      "controller.speed_integral",
+      "gearbox.backlash",        "motor.inertia",         "load.inertia",
+      "motor.friction",          "load.friction",         "load.coulomb",
+      "contact.stiffness",       "contact.restitution",   "sampling.delay",
+      "sampling.period",         "sensor.counts_per_turn"};
+  std::vector<std::string_view> numbers;
+  for (const std::string_view path : paths) {
+    const Axis axis{.path = std::string(path)};
+    if (parameter_of(axis, drive) == nullptr) continue;
+    if (present_value(axis, drive).value_or(0.0) > 0.0) numbers.push_back(path);
+  }
+  return numbers;
+}
 
 DesignTask random_design_task(std::uint64_t seed) {
   DesignTask task{.drive = seed % 2 == 0 ? random_drive(seed) : continuous_drive(seed)};

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gearlash/design.hpp"
@@ -11,6 +12,10 @@
 #include "gearlash/grid.hpp"
 
 namespace gearlash::oracle {
+
+/// Gains, inertias, frictions, the gap, the stiffness of the faces, sampling, delay and resolution,
+/// as far as the drive has them and they are above 0.
+[[nodiscard]] std::vector<std::string_view> numbers_of(const Drive& drive);
 
 struct DesignTask {
   Drive drive{};
@@ -20,9 +25,8 @@ struct DesignTask {
 };
 
 /// One seed, one task: of even seeds a drive with a computer (random_drive()), of odd ones a
-/// continuous one (continuous_drive()); one of its gains, inertias, frictions, the gap, the
-/// stiffness of its faces, its sampling, delay or resolution, at nine values by ratio from a fifth
-/// of the present one to five times; and a target of any kind, half of them of two limits.
+/// continuous one (continuous_drive()); one of numbers_of() it, at nine values by ratio from a
+/// fifth of the present one to five times; and a target of any kind, half of them of two limits.
 [[nodiscard]] DesignTask random_design_task(std::uint64_t seed);
 
 /// What does not hold of an answer.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "gearlash/analyse.hpp"
@@ -21,17 +22,18 @@ Axis gains(std::size_t count) {
   return spaced_axis("x", "controller.proportional", 2.0, 6.0, count, Spacing::logarithmic);
 }
 
-std::vector<Drive> drives_of(const Axis& axis) {
-  std::vector<Drive> drives;
+std::vector<SoundDrive> drives_of(const Axis& axis) {
+  std::vector<SoundDrive> drives;
   for (const double value : axis.values) {
-    drives.push_back(pd_drive());
-    set_on(axis, drives.back(), value);
+    Drive drive = pd_drive();
+    set_on(axis, drive, value);
+    drives.emplace_back(std::move(drive));
   }
   return drives;
 }
 
 TEST(OracleFollowedDrives, HaveTheAnswersOfTheirOwnSearches) {
-  const std::vector<Drive> drives = drives_of(gains(24));
+  const std::vector<SoundDrive> drives = drives_of(gains(24));
   std::vector<Answer> answers(drives.size());
   std::vector<int> times(drives.size());
   search_run(
@@ -45,7 +47,7 @@ TEST(OracleFollowedDrives, HaveTheAnswersOfTheirOwnSearches) {
   EXPECT_EQ(std::count(times.begin(), times.end(), 1), 24);
   std::size_t hunting = 0;
   for (std::size_t i = 0; i < drives.size(); ++i) {
-    const Answer own = analyse(drives[i]);
+    const Answer own = analyse(drives[i].given());
     EXPECT_EQ(answers[i].verdict, own.verdict) << i;
     const double amplitude = own.value(Quantity::amplitude).value();
     EXPECT_NEAR(answers[i].value(Quantity::amplitude).value(), amplitude, 1e-9 * amplitude) << i;
@@ -57,7 +59,7 @@ TEST(OracleFollowedDrives, HaveTheAnswersOfTheirOwnSearches) {
 
 /// A search watches many starts, following few.
 TEST(FollowedDrives, AreSearchedAfreshWhereTheirKindChanges) {
-  const std::vector<Drive> drives = drives_of(gains(24));
+  const std::vector<SoundDrive> drives = drives_of(gains(24));
   std::vector<bool> is_afresh(drives.size());
   std::vector<Verdict> verdicts(drives.size());
   search_run(
@@ -99,7 +101,7 @@ TEST(FollowedDrives, HaveTheSameAnswersInPiecesOfAGrid) {
 }
 
 TEST(EdgeFollowedDrives, StopWhenAsked) {
-  const std::vector<Drive> drives = drives_of(gains(8));
+  const std::vector<SoundDrive> drives = drives_of(gains(8));
   std::size_t taken = 0;
   search_run(
       drives, {.proofs = false}, [&](std::size_t, const Answer&) { return ++taken < 3; },

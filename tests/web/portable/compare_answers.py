@@ -33,7 +33,7 @@ FACTORS = {
     ("cycle", "amplitude"): 3,  # [0.70]
     ("cycle", "motor_amplitude"): 3,  # [0.43]
     ("cycle", "period"): 3,  # [0.23]
-    ("cycle", "multiplier"): 320,  # [78]
+    ("cycle", "multiplier"): 40,  # [9.9]
     ("unstable-cycle", "amplitude"): 110,  # [28]
     ("unstable-cycle", "motor_amplitude"): 110,  # as the load's [2.4]
     ("unstable-cycle", "period"): 40,  # [9.2]
