@@ -101,12 +101,12 @@ void add_chart_command(Command& app, Action& action) {
   const auto options = std::make_shared<ChartOptions>();
   Command* command =
       app.add_subcommand("chart", "Draw a family of curves over any parameters of a drive");
-  command->add_option("--x", options->x, axis_help)->type_name("AXIS")->required();
-  command->add_option("--curves", options->curves, "Draw one curve for each value of this axis")
-      ->type_name("AXIS");
+  command->add_option("--x AXIS", options->x, axis_help)->required();
+  command->add_option("--curves AXIS", options->curves,
+                      "Draw one curve for each value of this axis");
   add_grid_options(*command, options->grid,
-                   "Draw curves=FILE, the quantity over --x, or bifurcation=FILE, all cycles\n"
-                   "over --x as stable and unstable branches with their borders;");
+                   "Draw curves=FILE, the quantity over --x, or bifurcation=FILE, all cycles over "
+                   "--x as stable and unstable branches with their borders;");
   set_action(
       *command, action, options,
       "Without --backlash, amplitudes are in backlashes, because they are proportional to it.\n\n" +

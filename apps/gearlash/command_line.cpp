@@ -6,9 +6,19 @@
 #include "base/fault.hpp"
 #include "input/section_reader.hpp"
 #include "input/units.hpp"
+#include "output/columns.hpp"
 
 namespace gearlash::cli {
 namespace {
+
+constexpr std::size_t help_column = 30;
+constexpr std::size_t widest_help = 73;
+
+std::string in_help_column(const std::string& help) {
+  std::string text = wrapped(help, widest_help);
+  text.pop_back();  // the last newline
+  return text;
+}
 
 std::vector<std::string> names_of_subcommands(const CLI::App& app) {
   std::vector<std::string> names;
@@ -52,11 +62,6 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& error) {
 
 }  // namespace
 
-Option* Option::type_name(const std::string& name) {
-  option_->type_name(name);
-  return this;
-}
-
 Option* Option::group(const std::string& heading) {
   option_->group(heading);
   return this;
@@ -91,7 +96,7 @@ Command::Command(const std::string& name, const std::string& description,
                  const std::string& version_text)
     : app_(std::make_shared<CLI::App>(description, name)) {
   app_->set_version_flag("--version", version_text);
-  app_->get_formatter()->column_width(30);
+  app_->get_formatter()->column_width(help_column);
   require_subcommand();
 }
 
@@ -104,7 +109,10 @@ Command* Command::add_subcommand(const std::string& name, const std::string& des
 
 template <class Value>
 Option* Command::bind(const std::string& name, Value& value, const std::string& help) {
-  return &options_.emplace_back(app_->add_option(name, value, help));
+  const std::size_t end = std::min(name.find(' '), name.size());
+  CLI::Option* option = app_->add_option(name.substr(0, end), value, in_help_column(help));
+  option->type_name(end < name.size() ? name.substr(end + 1) : "");
+  return &options_.emplace_back(option);
 }
 
 Option* Command::add_option(const std::string& name, std::string& value, const std::string& help) {
@@ -122,7 +130,7 @@ Option* Command::add_option(const std::string& name, std::vector<std::string>& v
 }
 
 Option* Command::add_flag(const std::string& name, bool& value, const std::string& help) {
-  return &options_.emplace_back(app_->add_flag(name, value, help));
+  return &options_.emplace_back(app_->add_flag(name, value, in_help_column(help)));
 }
 
 std::vector<Option*> Command::options() {

@@ -20,8 +20,6 @@ class Option {
  public:
   explicit Option(CLI::Option* option) : option_(option) {}
 
-  /// What the help shows in place of its value; "" shows nothing.
-  Option* type_name(const std::string& name);
   /// The heading under which the help lists it.
   Option* group(const std::string& heading);
   Option* required();
@@ -45,7 +43,8 @@ class Command {
   Command(const std::string& name, const std::string& description, const std::string& version_text);
 
   Command* add_subcommand(const std::string& name, const std::string& description);
-  /// Without leading dashes it is a positional argument. The text of its help may have many lines.
+  /// `name`: "--step ANGLE", the option and what the help shows for its value; without leading
+  /// dashes it is a positional argument. The help is broken into lines.
   Option* add_option(const std::string& name, std::string& value, const std::string& help);
   Option* add_option(const std::string& name, std::optional<std::string>& value,
                      const std::string& help);

@@ -183,42 +183,37 @@ void add_compare_command(Command& app, Action& action) {
   const auto options = std::make_shared<CompareOptions>();
   Command* command =
       app.add_subcommand("compare", "Compare drives, or the values of one parameter, side by side");
+  command->add_option(
+      "DRIVE.toml", options->files,
+      "Read drives from these files: data sheets or normalised servos "
+      "(docs/reference/data-sheets.md), or any drives (docs/reference/drives.md); - is "
+      "standard input");
+  command->add_option(
+      "--x AXIS", options->x,
+      "Compare one drive with these values: PATH=A,B,C, PATH=FROM:TO:COUNT or "
+      "PATH=FROM:TO:COUNT:log, with units; PATH is any number or choice of the drive, "
+      "or damping, inertia-ratio, … of the normal form; default "
+      "sensor.position=load,motor,both");
+  add_drive_options(
+      *command, options->servo,
+      "Compare one drive with these places of the position sensor, as --x "
+      "sensor.position=LIST does: load, motor and both (position of the load, speed of "
+      "the motor); of several files, or with --x, one place");
   command
-      ->add_option("DRIVE.toml", options->files,
-                   "Read drives from these files: data sheets or normalised servos\n"
-                   "(docs/reference/data-sheets.md), or any drives\n"
-                   "(docs/reference/drives.md); - is standard input")
-      ->type_name("");
-  command
-      ->add_option("--x", options->x,
-                   "Compare one drive with these values: PATH=A,B,C, PATH=FROM:TO:COUNT or\n"
-                   "PATH=FROM:TO:COUNT:log, with units; PATH is any number or choice of the\n"
-                   "drive, or damping, inertia-ratio, … of the normal form; default\n"
-                   "sensor.position=load,motor,both")
-      ->type_name("AXIS");
-  add_drive_options(*command, options->servo,
-                    "Compare one drive with these places of the position sensor, as\n"
-                    "--x sensor.position=LIST does: load, motor and both (position of the\n"
-                    "load, speed of the motor); of several files, or with --x, one place");
-  command
-      ->add_option("--quantities", options->quantities,
-                   "Show these quantities, separated by commas: amplitude, static-error, …\n"
+      ->add_option("--quantities NAMES", options->quantities,
+                   "Show these quantities, separated by commas: amplitude, static-error, … "
                    "(docs/reference/command-line.md)")
-      ->type_name("NAMES")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command
-      ->add_option("--step", options->step,
-                   "Set the step of the reference, in rad or with a unit; default ten\n"
-                   "times the backlash of the first drive, or 1 deg without one")
-      ->type_name("ANGLE");
-  command
-      ->add_option("--until", options->until,
-                   "Set the end of the step responses; default twenty periods of each loop,\n"
-                   "or more where the load needs longer to rise")
-      ->type_name("TIME");
-  command->add_option("--format", options->format, "Choose the format: text (default) or json")
-      ->type_name("FORMAT");
+  command->add_option("--step ANGLE", options->step,
+                      "Set the step of the reference, in rad or with a unit; default ten times the "
+                      "backlash of the first drive, or 1 deg without one");
+  command->add_option(
+      "--until TIME", options->until,
+      "Set the end of the step responses; default twenty periods of each loop, or more "
+      "where the load needs longer to rise");
+  command->add_option("--format FORMAT", options->format,
+                      "Choose the format: text (default) or json");
   command->add_flag("--brief", options->brief, "Print the headlines alone");
   add_plot_option(*command, options->plots, "Draw time=FILE, the step responses;");
   add_limit_options(*command, options->limits);

@@ -136,16 +136,14 @@ void add_describe_command(Command& app, Action& action) {
   Command* command = app.add_subcommand(
       "describe", "Compare what describing functions predict with the exact cycle");
   add_servo_or_drive_options(*command, options->servo);
-  command->add_option("--format", options->format, "Choose the format: text (default) or json")
-      ->type_name("FORMAT");
+  command->add_option("--format FORMAT", options->format,
+                      "Choose the format: text (default) or json");
   add_plot_option(*command, options->plots,
-                  "Draw nyquist=FILE, the loop's gain against -1/N, with the exact\ncycle;");
-  command
-      ->add_option("--part", options->part,
-                   "Draw this part: gap, elastic-gap, torque-limit,\n"
-                   "coulomb-friction, dead-band or relay; default the first part in\n"
-                   "the loop")
-      ->type_name("PART");
+                  "Draw nyquist=FILE, the loop's gain against -1/N, with the exact cycle;");
+  command->add_option(
+      "--part PART", options->part,
+      "Draw this part: gap, elastic-gap, torque-limit, coulomb-friction, dead-band or "
+      "relay; default the first part in the loop");
   add_limit_options(*command, options->limits);
   set_action(*command, action, options, describe_explanation + help_footer(describe_examples), run);
 }

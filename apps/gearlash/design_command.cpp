@@ -196,36 +196,32 @@ void add_design_command(Command& app, Action& action) {
       app.add_subcommand("design", "Find the changes that stop the hunting or meet another target");
   add_servo_or_drive_options(*command, options->servo);
   command
-      ->add_option("--target", options->target,
-                   "Set the target: no-hunting, no-hunting-if-disturbed or no-runaway; or\n"
-                   "amplitude, frequency, ceiling, bandwidth or any other quantity, then\n"
-                   "<= or >=, then a limit; \"and\" joins several")
-      ->type_name("TARGET")
+      ->add_option("--target TARGET", options->target,
+                   "Set the target: no-hunting, no-hunting-if-disturbed or no-runaway; or "
+                   "amplitude, frequency, ceiling, bandwidth or any other quantity, then <= or >=, "
+                   "then a limit; \"and\" joins several")
       ->required();
   command
-      ->add_option("--parameters", options->parameters,
-                   "List the parameters that may change, separated by commas: any number or\n"
-                   "choice by its path, such as gearbox.ratio, or with a range,\n"
-                   "PATH=FROM:TO:COUNT[:log], with units; default those of --vary, else\n"
-                   "those that are easiest to change. Without a range: 0.001 to 1000 times\n"
-                   "the present value where the closed form answers, else 0.1 to 10 times")
-      ->type_name("NAMES")
+      ->add_option("--parameters NAMES", options->parameters,
+                   "List the parameters that may change, separated by commas: any number or choice "
+                   "by its path, such as gearbox.ratio, or with a range, PATH=FROM:TO:COUNT[:log], "
+                   "with units; default those of --vary, else those that are easiest to change. "
+                   "Without a range: 0.001 to 1000 times the present value where the closed form "
+                   "answers, else 0.1 to 10 times")
       ->delimiter(',');
   command
-      ->add_option("--vary", options->vary,
-                   "Choose two parameters, separated by a comma, each with or without a\n"
-                   "range; --plot draws where both together meet the target")
-      ->type_name("X,Y")
+      ->add_option("--vary X,Y", options->vary,
+                   "Choose two parameters, separated by a comma, each with or without a range; "
+                   "--plot draws where both together meet the target")
       ->delimiter(',');
-  command
-      ->add_option("--quantity", options->quantity,
-                   "Draw contours of this quantity beside it: bandwidth (default),\n"
-                   "phase-margin, amplitude, …")
-      ->type_name("NAME");
+  command->add_option(
+      "--quantity NAME", options->quantity,
+      "Draw contours of this quantity beside it: bandwidth (default), phase-margin, "
+      "amplitude, …");
   add_plot_option(*command, options->plots,
-                  "Draw region=FILE, where the parameters of --vary meet the\ntarget;");
-  command->add_option("--format", options->format, "Choose the format: text (default) or json")
-      ->type_name("FORMAT");
+                  "Draw region=FILE, where the parameters of --vary meet the target;");
+  command->add_option("--format FORMAT", options->format,
+                      "Choose the format: text (default) or json");
   add_limit_options(*command, options->limits);
   set_action(*command, action, options, help_footer(design_examples), run);
 }

@@ -137,9 +137,8 @@ void add_explore_command(Command& app, Action& action) {
       "explore", "Write the drive as a page for the browser, with sliders and pictures");
   add_servo_or_drive_options(*command, options->servo);
   command
-      ->add_option("--output", options->output,
+      ->add_option("--output FILE", options->output,
                    "Write this page, .html: one file, which works offline and in a mail")
-      ->type_name("FILE")
       ->required();
   set_action(*command, action, options, help_footer(explore_examples), run);
 }

@@ -181,18 +181,14 @@ void write_table(const GridTask& task, const GridTable& table, const RowCount& c
 }  // namespace
 
 void add_grid_options(Command& command, GridOptions& options, const std::string& drawing) {
-  command
-      .add_option("--quantity", options.quantity,
-                  "Draw this quantity: amplitude (default), period, growth_at_rest, …")
-      ->type_name("NAME");
-  command
-      .add_option("--output", options.output,
-                  "Write this table (.csv, .json, .nc) or picture (.svg, .png, .pdf)")
-      ->type_name("FILE");
+  command.add_option("--quantity NAME", options.quantity,
+                     "Draw this quantity: amplitude (default), period, growth_at_rest, …");
+  command.add_option("--output FILE", options.output,
+                     "Write this table (.csv, .json, .nc) or picture (.svg, .png, .pdf)");
   add_plot_option(command, options.plots, drawing);
   command.add_flag("--proved", options.proved,
-                   "Prove each verdict of the closed form with plastic contact by\n"
-                   "interval arithmetic; verdicts that it cannot prove are undecided");
+                   "Prove each verdict of the closed form with plastic contact by interval "
+                   "arithmetic; verdicts that it cannot prove are undecided");
   add_servo_or_drive_options(command, options.servo);
   add_limit_options(command, options.limits);
 }

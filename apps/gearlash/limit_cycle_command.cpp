@@ -214,41 +214,39 @@ void add_limit_cycle_command(Command& app, Action& action) {
   Command* command = app.add_subcommand(
       "limit-cycle", "Report whether a drive hunts, with the amplitude and frequency");
   add_servo_or_drive_options(*command, options->servo);
-  command->add_option("--format", options->format, "Choose the format: text (default) or json")
-      ->type_name("FORMAT");
+  command->add_option("--format FORMAT", options->format,
+                      "Choose the format: text (default) or json");
   command->add_flag("--brief", options->brief, "Print the headline alone");
   add_limit_options(*command, options->limits);
-  command
-      ->add_option("--specification", options->specification,
-                   "Add the widest backlash that provably keeps the load within this angle of\n"
-                   "the motion without a gap: \"0.5 deg\"")
-      ->type_name("ANGLE");
-  command
-      ->add_option("--measured", options->measured,
-                   "Add how far hunting that was measured at the load, half of its peak to\n"
-                   "peak and its frequency or period, is from each motion found:\n"
-                   "\"0.2 rad, 0.9 Hz\"")
-      ->type_name("AMPLITUDE,FREQUENCY");
+  command->add_option(
+      "--specification ANGLE", options->specification,
+      "Add the widest backlash that provably keeps the load within this angle of the "
+      "motion without a gap: \"0.5 deg\"");
+  command->add_option(
+      "--measured AMPLITUDE,FREQUENCY", options->measured,
+      "Add how far hunting that was measured at the load, half of its peak to peak and "
+      "its frequency or period, is from each motion found: \"0.2 rad, 0.9 Hz\"");
   add_plot_option(*command, options->plots,
-                  "Draw phase=FILE, the limit cycles in the phase plane and motions that\n"
-                  "lead to them, time=FILE, such a motion over time, tornado=FILE, the\n"
-                  "sensitivities of the amplitude, or ceiling=FILE, what the proved\n"
-                  "bound of every motion is made of;");
-  command->add_flag("--margins", options->margins,
-                    "Add how far each parameter may change before hunting ends or begins,\n"
-                    "and all of them together; with bounces, or without a closed form, this\n"
-                    "takes seconds to minutes");
+                  "Draw phase=FILE, the limit cycles in the phase plane and motions that lead to "
+                  "them, time=FILE, such a motion over time, tornado=FILE, the sensitivities of "
+                  "the amplitude, or ceiling=FILE, what the proved bound of every motion is made "
+                  "of;");
+  command->add_flag(
+      "--margins", options->margins,
+      "Add how far each parameter may change before hunting ends or begins, and all of "
+      "them together; with bounces, or without a closed form, this takes seconds to "
+      "minutes");
   command
-      ->add_option("--parameters", options->parameters,
-                   "List the parameters of --margins, by path, separated by commas: any number\n"
-                   "or choice of the drive, searched from 0.1 to 10 times its present value or\n"
-                   "over PATH=FROM:TO:COUNT[:log]; default those of design, and of drives\n"
-                   "without a closed form the backlash and the controller's numbers")
-      ->type_name("NAMES")
+      ->add_option("--parameters NAMES", options->parameters,
+                   "List the parameters of --margins, by path, separated by commas: any number or "
+                   "choice of the drive, searched from 0.1 to 10 times its present value or over "
+                   "PATH=FROM:TO:COUNT[:log]; default those of design, and of drives without a "
+                   "closed form the backlash and the controller's numbers")
       ->delimiter(',');
-  command->add_flag("--sensitivities", options->sensitivities,
-                    "Add sensitivities to every parameter, in per cent for one per cent; of\n"
-                    "searched drives for a continuous controller without encoder");
+  command->add_flag(
+      "--sensitivities", options->sensitivities,
+      "Add sensitivities to every parameter, in per cent for one per cent; of searched "
+      "drives for a continuous controller without encoder");
   set_action(*command, action, options, help_footer(limit_cycle_examples), run);
 }
 

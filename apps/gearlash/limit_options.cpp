@@ -18,16 +18,13 @@ double read_memory(const std::string& text) {
 }  // namespace
 
 void add_limit_options(Command& command, LimitOptions& options) {
-  command
-      .add_option("--time-limit", options.time,
-                  "Stop the work after this time and print what is known by then, with\n"
-                  "exit status 1: \"30 s\"")
-      ->type_name("TIME");
-  command
-      .add_option("--memory-limit", options.memory,
-                  "Stop the work likewise once the tool has taken this much memory, 100 MB\n"
-                  "or more: \"200 MB\"")
-      ->type_name("SIZE");
+  command.add_option(
+      "--time-limit TIME", options.time,
+      "Stop the work after this time and print what is known by then, with exit status "
+      "1: \"30 s\"");
+  command.add_option("--memory-limit SIZE", options.memory,
+                     "Stop the work likewise once the tool has taken this much memory, 100 MB or "
+                     "more: \"200 MB\"");
 }
 
 Limits read_limits(const LimitOptions& options, Faults& faults) {

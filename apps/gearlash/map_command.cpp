@@ -43,19 +43,15 @@ void add_map_command(Command& app, Action& action) {
   const auto options = std::make_shared<MapOptions>();
   Command* command = app.add_subcommand(
       "map", "Draw contours over two parameters of a drive, and where hunting ends");
-  command->add_option("--x", options->x, axis_help)->type_name("AXIS")->required();
-  command->add_option("--y", options->y, "Set the axis of another parameter")
-      ->type_name("AXIS")
-      ->required();
-  command
-      ->add_option("--target", options->grid.target,
-                   "Shade where the target is met, with its border, and add a column target to\n"
-                   "tables: no-hunting, \"amplitude <= 1 deg and bandwidth >= 3 Hz\", … as of\n"
-                   "gearlash design")
-      ->type_name("TARGET");
+  command->add_option("--x AXIS", options->x, axis_help)->required();
+  command->add_option("--y AXIS", options->y, "Set the axis of another parameter")->required();
+  command->add_option("--target TARGET", options->grid.target,
+                      "Shade where the target is met, with its border, and add a column target to "
+                      "tables: no-hunting, \"amplitude <= 1 deg and bandwidth >= 3 Hz\", … as of "
+                      "gearlash design");
   add_grid_options(*command, options->grid,
-                   "Draw map=FILE, contours of the quantity, or its value at each point\n"
-                   "if drives are searched;");
+                   "Draw map=FILE, contours of the quantity, or its value at each point if drives "
+                   "are searched;");
   set_action(
       *command, action, options,
       "Without --backlash, amplitudes are in backlashes, because they are proportional to it.\n\n" +

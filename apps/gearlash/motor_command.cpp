@@ -46,7 +46,6 @@ void add_motor_command(Command& app, Action& action) {
   command
       ->add_option("DRIVE.toml", options->file,
                    "Read this data sheet (docs/reference/data-sheets.md)")
-      ->type_name("")
       ->required();
   add_set_option(*command, *options);
   set_action(*command, action, options, help_footer(motor_examples), run);

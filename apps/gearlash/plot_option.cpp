@@ -46,8 +46,7 @@ void write_plot(const PlotFile& file, const Plot& plot) {
 Option* add_plot_option(Command& command, std::vector<std::string>& typed,
                         const std::string& kinds) {
   return command
-      .add_option("--plot", typed, kinds + "\nFILE ends in .svg, .png or .pdf; repeatable")
-      ->type_name("KIND=FILE")
+      .add_option("--plot KIND=FILE", typed, kinds + " FILE ends in .svg, .png or .pdf; repeatable")
       ->allow_extra_args(false);
 }
 

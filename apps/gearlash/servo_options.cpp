@@ -28,7 +28,7 @@ constexpr std::pair<const char*, const char*> number_options[] = {
     {"Set the damping ratio: 0, or 1e-15 to 1000", "NUMBER"},
     {"Set the inertia ratio, load to motor: 0 to inf", "NUMBER"},
     {"Set the friction ratio, load to total: 0 to 1", "NUMBER"},
-    {"Set the backlash at the load, face to face, in rad or with a unit:\n\"12 arcmin\"", "ANGLE"},
+    {"Set the backlash at the load, face to face, in rad or with a unit: \"12 arcmin\"", "ANGLE"},
     {"Set the restitution: 0 (plastic, the default) to 1 (elastic)", "NUMBER"}};
 
 /// Whether the number is one of the ratios that a drive with [motor] has not by itself.
@@ -91,10 +91,9 @@ std::vector<Setting> settings_of(const ServoOptions& options, Faults& faults) {
 
 void add_set_option(Command& command, ServoOptions& options) {
   command
-      .add_option("--set", options.settings,
-                  "Set any parameter of the drive by its path, with its unit:\n"
+      .add_option("--set PATH=VALUE", options.settings,
+                  "Set any parameter of the drive by its path, with its unit: "
                   "gearbox.backlash=\"12 arcmin\"; repeatable; gearlash show lists the paths")
-      ->type_name("PATH=VALUE")
       ->allow_extra_args(false)
       ->group(servo_group);
 }
@@ -102,13 +101,10 @@ void add_set_option(Command& command, ServoOptions& options) {
 void add_drive_options(Command& command, ServoOptions& options, const std::string& sensor_help) {
   for (std::size_t i = 0; i < options.numbers.size(); ++i) {
     const auto& [help, type] = number_options[i];
-    command.add_option(option_name(normal_form_numbers[i].name), options.numbers[i], help)
-        ->type_name(type)
-        ->group(servo_group);
+    const std::string name = option_name(normal_form_numbers[i].name) + " " + type;
+    command.add_option(name, options.numbers[i], help)->group(servo_group);
   }
-  command.add_option("--sensor", options.sensor, sensor_help)
-      ->type_name("SHAFT")
-      ->group(servo_group);
+  command.add_option("--sensor SHAFT", options.sensor, sensor_help)->group(servo_group);
   add_set_option(command, options);
 }
 
@@ -138,24 +134,21 @@ std::string option_name(std::string field) {
 }
 
 void add_servo_options(Command& command, ServoOptions& options) {
-  command
-      .add_option("DRIVE.toml", options.file,
-                  "Read the servo from this file: a data sheet or normalised servo\n"
-                  "(docs/reference/data-sheets.md); - is standard input")
-      ->type_name("");
+  command.add_option("DRIVE.toml", options.file,
+                     "Read the servo from this file: a data sheet or normalised servo "
+                     "(docs/reference/data-sheets.md); - is standard input");
   add_drive_options(command, options, "Set the shaft with the position sensor: load");
 }
 
 void add_servo_or_drive_options(Command& command, ServoOptions& options) {
-  command
-      .add_option("DRIVE.toml", options.file,
-                  "Read the drive from this file: a data sheet or normalised servo\n"
-                  "(docs/reference/data-sheets.md), or any drive\n"
-                  "(docs/reference/drives.md); - is standard input")
-      ->type_name("");
+  command.add_option(
+      "DRIVE.toml", options.file,
+      "Read the drive from this file: a data sheet or normalised servo "
+      "(docs/reference/data-sheets.md), or any drive (docs/reference/drives.md); - is "
+      "standard input");
   add_drive_options(command, options,
-                    "Set the shaft with the position sensor: load, motor or both (position\n"
-                    "of the load, speed of the motor)");
+                    "Set the shaft with the position sensor: load, motor or both (position of the "
+                    "load, speed of the motor)");
 }
 
 void Faults::add(Fault fault) {

@@ -37,8 +37,8 @@ void add_show_command(Command& app, Action& action) {
   Command* command =
       app.add_subcommand("show", "Write the drive with all defaults, as a file that reads back");
   add_servo_or_drive_options(*command, options->servo);
-  command->add_option("--format", options->format, "Choose the format: toml (default) or json")
-      ->type_name("FORMAT");
+  command->add_option("--format FORMAT", options->format,
+                      "Choose the format: toml (default) or json");
   set_action(*command, action, options, help_footer(show_examples), run);
 }
 

@@ -285,33 +285,28 @@ ExitStatus run(const SimulateOptions& options, const Provenance& provenance) {
 
 void add_start_options(Command& command, SimulateOptions& options) {
   constexpr char group[] = "Motion (in rad, s and rad/s, or with a unit: \"50 ms\", \"3 rpm\")";
-  const auto add = [&](const char* name, auto& typed, const char* help, const char* kind) {
-    command.add_option(name, typed, help)->type_name(kind)->group(group);
+  const auto add = [&](const char* name, auto& typed, const char* help) {
+    command.add_option(name, typed, help)->group(group);
   };
-  add("--initial-position", options.initial_position,
-      "Set the initial position of the load; default 0", "ANGLE");
-  add("--initial-speed", options.initial_speed,
-      "Set the initial speed of both shafts; default 0; --initial-gap-speed\nadds to the motor's",
-      "SPEED");
-  add("--initial-gap", options.initial_gap,
-      "Set the initial position of the motor minus that of the load, within\n"
-      "half the backlash each way; default on the face that the reference\n"
-      "pulls to",
-      "ANGLE");
-  add("--initial-gap-speed", options.initial_gap_speed,
-      "Set the initial speed of the motor minus that of the load; default 0", "SPEED");
-  add("--reference", options.reference,
-      "Set a constant reference; default the file's reference, else a step of\n"
-      "five backlashes, at least twenty encoder counts and three times the\n"
-      "error that friction holds",
-      "ANGLE");
-  add("--until", options.until,
-      "Set the end time; default 10 periods of the loop plus twice the\n"
-      "settling time of the signals; pictures go on for eight periods of\n"
-      "slow hunting",
-      "TIME");
-  add("--every", options.every, "Set the time between samples; default a thousandth of --until",
-      "TIME");
+  add("--initial-position ANGLE", options.initial_position,
+      "Set the initial position of the load; default 0");
+  add("--initial-speed SPEED", options.initial_speed,
+      "Set the initial speed of both shafts; default 0; --initial-gap-speed adds to "
+      "the motor's");
+  add("--initial-gap ANGLE", options.initial_gap,
+      "Set the initial position of the motor minus that of the load, within half the "
+      "backlash each way; default on the face that the reference pulls to");
+  add("--initial-gap-speed SPEED", options.initial_gap_speed,
+      "Set the initial speed of the motor minus that of the load; default 0");
+  add("--reference ANGLE", options.reference,
+      "Set a constant reference; default the file's reference, else a step of five "
+      "backlashes, at least twenty encoder counts and three times the error that "
+      "friction holds");
+  add("--until TIME", options.until,
+      "Set the end time; default 10 periods of the loop plus twice the settling time "
+      "of the signals; pictures go on for eight periods of slow hunting");
+  add("--every TIME", options.every,
+      "Set the time between samples; default a thousandth of --until");
 }
 
 }  // namespace
@@ -322,18 +317,16 @@ void add_simulate_command(Command& app, Action& action) {
       app.add_subcommand("simulate", "Compute the exact motion after a step or a disturbance");
   add_servo_or_drive_options(*command, options->servo);
   add_start_options(*command, *options);
-  command->add_flag("--events", options->events,
-                    "List events (faces meet, part; shafts stick) instead of samples;\n"
-                    "JSON has both");
-  command->add_option("--format", options->format, "Choose the format: csv (default) or json")
-      ->type_name("FORMAT");
+  command->add_flag(
+      "--events", options->events,
+      "List events (faces meet, part; shafts stick) instead of samples; JSON has both");
+  command->add_option("--format FORMAT", options->format,
+                      "Choose the format: csv (default) or json");
   add_plot_option(*command, options->plots,
-                  "Draw time=FILE, the response, the gap and the torque, or phase=FILE,\n"
-                  "the phase plane;");
-  command
-      ->add_option("--output", options->output,
-                   "Write the table to this file; default standard output")
-      ->type_name("FILE");
+                  "Draw time=FILE, the response, the gap and the torque, or phase=FILE, the phase "
+                  "plane;");
+  command->add_option("--output FILE", options->output,
+                      "Write the table to this file; default standard output");
   add_limit_options(*command, options->limits);
   set_action(*command, action, options, help_footer(simulate_examples), run);
 }

@@ -108,10 +108,8 @@ void add_sweep_command(Command& app, Action& action) {
   Command* command =
       app.add_subcommand("sweep", "Analyse a drive over up to six parameters, into a NetCDF file");
   command->add_option("SWEEP.toml", options->file, "Read the axes and the drive from this file")
-      ->type_name("")
       ->required();
-  command->add_option("--output", options->output, "Write this NetCDF-4 file (.nc)")
-      ->type_name("FILE")
+  command->add_option("--output FILE", options->output, "Write this NetCDF-4 file (.nc)")
       ->required();
   command->add_flag("--resume", options->resume, "Continue a sweep that was stopped or killed");
   add_limit_options(*command, options->limits);

@@ -119,13 +119,9 @@ void add_thesis_figure(Command& thesis, Action& action) {
   const auto options = std::make_shared<Options>();
   Command* command = thesis.add_subcommand(
       "figure", "Draw one of figures 2 to 15: the program's points, the exact curves");
-  command->add_option("N", options->number, "Choose the figure: 2 to 15")
-      ->type_name("")
-      ->required();
-  command
-      ->add_option("--output", options->output,
-                   "Write this picture, .svg, .png or .pdf; default figure-N.svg")
-      ->type_name("FILE");
+  command->add_option("N", options->number, "Choose the figure: 2 to 15")->required();
+  command->add_option("--output FILE", options->output,
+                      "Write this picture, .svg, .png or .pdf; default figure-N.svg");
   set_action(
       *command, action, options, help_footer(figure_examples), [](auto& typed, const Provenance&) {
         Faults faults;
@@ -148,10 +144,8 @@ void add_thesis_all(Command& thesis, Action& action) {
   };
   const auto options = std::make_shared<Options>();
   Command* command = thesis.add_subcommand("all", "Draw all figures into a folder, as SVG");
-  command
-      ->add_option("--output", options->folder,
-                   "Write into this folder, and make it if missing; default\nthesis-figures")
-      ->type_name("DIR");
+  command->add_option("--output DIR", options->folder,
+                      "Write into this folder, and make it if missing; default thesis-figures");
   add_limit_options(*command, options->limits);
   set_action(
       *command, action, options, help_footer(figure_examples),
@@ -214,13 +208,9 @@ void add_thesis_extension(Command& thesis, Action& action) {
   const auto options = std::make_shared<Options>();
   Command* command = thesis.add_subcommand(
       "extension", "Draw the chart of recommendation 2, 3 or 4 of the thesis");
-  command->add_option("N", options->number, "Choose the recommendation: 2, 3 or 4")
-      ->type_name("")
-      ->required();
-  command
-      ->add_option("--output", options->output,
-                   "Write this picture, .svg, .png or .pdf; default extension-N.svg")
-      ->type_name("FILE");
+  command->add_option("N", options->number, "Choose the recommendation: 2, 3 or 4")->required();
+  command->add_option("--output FILE", options->output,
+                      "Write this picture, .svg, .png or .pdf; default extension-N.svg");
   add_limit_options(*command, options->limits);
   set_action(*command, action, options, help_footer(extension_examples),
              [](auto& typed, const Provenance&) {

@@ -179,14 +179,13 @@ void add_thesis_table_2(Command& thesis, Action& action) {
   const auto options = std::make_shared<Options>();
   Command* command =
       thesis.add_subcommand("table-2", "Print Table II again, beside the printout of 1960");
-  Option* arithmetic = command
-                           ->add_option("--arithmetic", options->arithmetic,
-                                        "Choose the arithmetic: double (default) or 1604, which\n"
-                                        "cuts operands off before it adds them")
-                           ->type_name("KIND");
+  Option* arithmetic = command->add_option(
+      "--arithmetic KIND", options->arithmetic,
+      "Choose the arithmetic: double (default) or 1604, which cuts operands off before "
+      "it adds them");
   command
       ->add_flag("--properties", options->properties,
-                 "Show how many of its numbers each property of the\nprogram accounts for")
+                 "Show how many of its numbers each property of the program accounts for")
       ->excludes(arithmetic);
   set_action(*command, action, options, help_footer(table_2_examples),
              [](auto& typed, const Provenance&) {
@@ -207,9 +206,8 @@ void add_thesis_machine(Command& thesis, Action& action) {
   const auto options = std::make_shared<MachineOptions>();
   Command* command =
       thesis.add_subcommand("machine", "Run the octal words of Table I on an emulated CDC 1604");
-  Option* trace =
-      command->add_option("--trace", options->trace, "Show the first COUNT instructions instead")
-          ->type_name("COUNT");
+  Option* trace = command->add_option("--trace COUNT", options->trace,
+                                      "Show the first COUNT instructions instead");
   Option* rules = command->add_flag("--rules", options->rules,
                                     "Show which rounding rules reproduce the digits of 1960");
   Option* listing = command->add_flag("--listing", options->listing,

@@ -233,9 +233,9 @@ void add_thesis_run(Command& thesis, Action& action) {
       ->needs(all);
   Option* machine = command->add_flag("--machine", options->machine,
                                       "Run on the emulated CDC 1604 instead of the port");
-  Option* causes = command->add_flag("--causes", options->causes,
-                                     "Show the effect of each property of the program on five\n"
-                                     "amplitudes");
+  Option* causes =
+      command->add_flag("--causes", options->causes,
+                        "Show the effect of each property of the program on five amplitudes");
   for (Option* option : servo) {
     all->excludes(option);
     causes->excludes(option);

@@ -240,40 +240,30 @@ void add_tolerance_command(Command& app, Action& action) {
   Command* command =
       app.add_subcommand("tolerance", "Predict how many samples of a production run hunt, and why");
   add_servo_or_drive_options(*command, options->servo);
-  command
-      ->add_option("--samples", options->samples,
-                   "Set the least number of samples, rounded up to 16 times a power of\n"
-                   "two; default 65536, with bounces, of the motor, or for a target of other\n"
-                   "quantities than amplitude, frequency and growth at rest 512, of a drive\n"
-                   "that is searched 64; at most 16777216, for every sample is kept")
-      ->type_name("N");
-  command
-      ->add_option("--error", options->error,
-                   "Take as many samples as the probability of hunting and the yield need\n"
-                   "to be known to within this share: \"1 %\"")
-      ->type_name("SHARE");
-  command
-      ->add_option("--amplitude", options->amplitude,
-                   "Choose whose amplitude is reported: load, or motor; default load, of a\n"
-                   "drive that is searched motor")
-      ->type_name("SHAFT");
-  command->add_option("--seed", options->seed, "Set the seed of the random shifts; default 1960")
-      ->type_name("N");
-  command
-      ->add_option("--target", options->target,
-                   "Report the yield of this target, written as for design")
-      ->type_name("TARGET");
-  command
-      ->add_option("--yield", options->yield,
-                   "Find the largest backlash that may be accepted so that this share of\n"
-                   "the samples meets the target: \"95 %\" or 0.95")
-      ->type_name("SHARE");
+  command->add_option(
+      "--samples N", options->samples,
+      "Set the least number of samples, rounded up to 16 times a power of two; default "
+      "65536, with bounces, of the motor, or for a target of other quantities than "
+      "amplitude, frequency and growth at rest 512, of a drive that is searched 64; at "
+      "most 16777216, for every sample is kept");
+  command->add_option("--error SHARE", options->error,
+                      "Take as many samples as the probability of hunting and the yield need to be "
+                      "known to within this share: \"1 %\"");
+  command->add_option(
+      "--amplitude SHAFT", options->amplitude,
+      "Choose whose amplitude is reported: load, or motor; default load, of a drive "
+      "that is searched motor");
+  command->add_option("--seed N", options->seed, "Set the seed of the random shifts; default 1960");
+  command->add_option("--target TARGET", options->target,
+                      "Report the yield of this target, written as for design");
+  command->add_option("--yield SHARE", options->yield,
+                      "Find the largest backlash that may be accepted so that this share of the "
+                      "samples meets the target: \"95 %\" or 0.95");
   add_plot_option(*command, options->plots,
-                  "Draw distribution=FILE, the samples by amplitude, yield=FILE, the\n"
-                  "yield over a limit of the amplitude, or indices=FILE, which parameter\n"
-                  "decides;");
-  command->add_option("--format", options->format, "Choose the format: text (default) or json")
-      ->type_name("FORMAT");
+                  "Draw distribution=FILE, the samples by amplitude, yield=FILE, the yield over a "
+                  "limit of the amplitude, or indices=FILE, which parameter decides;");
+  command->add_option("--format FORMAT", options->format,
+                      "Choose the format: text (default) or json");
   add_limit_options(*command, options->limits);
   set_action(*command, action, options, tolerance_explanation + help_footer(tolerance_examples),
              run);

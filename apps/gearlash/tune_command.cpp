@@ -160,39 +160,27 @@ void add_tune_command(Command& app, Action& action) {
       "tune", "Find the best values of several parameters for a whole series of drives");
   add_servo_or_drive_options(*command, options->servo);
   command
-      ->add_option("--parameters", options->parameters,
-                   "List the numbers to tune, by path, separated by commas, each from 0.1\n"
-                   "to 10 times its present value, or over PATH=FROM:TO with units;\n"
-                   "default: the controller's gains that are above 0")
-      ->type_name("NAMES")
+      ->add_option("--parameters NAMES", options->parameters,
+                   "List the numbers to tune, by path, separated by commas, each from 0.1 to 10 "
+                   "times its present value, or over PATH=FROM:TO with units; default: the "
+                   "controller's gains that are above 0")
       ->delimiter(',');
-  command
-      ->add_option("--target", options->target,
-                   "Set the target that each unit must meet, written as for design")
-      ->type_name("TARGET");
-  command
-      ->add_option("--for", options->aim,
-                   "Choose what is best: the greatest bandwidth (default), the shortest\n"
-                   "settling or the least static-error, of the worst unit")
-      ->type_name("AIM");
-  command
-      ->add_option("--share", options->share,
-                   "Set the share of the units that must meet the target; default 100 %")
-      ->type_name("SHARE");
-  command
-      ->add_option("--phase-margin", options->phase_margin,
-                   "Set the least phase margin of the linear loop; default 30 deg")
-      ->type_name("ANGLE");
-  command
-      ->add_option("--units", options->units,
-                   "Set the number of units to which each proposal is put; default 64")
-      ->type_name("N");
-  command->add_option("--seed", options->seed, "Set the seed of the units; default 1960")
-      ->type_name("N");
-  command->add_option("--write", options->write, "Write the tuned drive to this file")
-      ->type_name("FILE");
-  command->add_option("--format", options->format, "Choose the format: text (default) or json")
-      ->type_name("FORMAT");
+  command->add_option("--target TARGET", options->target,
+                      "Set the target that each unit must meet, written as for design");
+  command->add_option(
+      "--for AIM", options->aim,
+      "Choose what is best: the greatest bandwidth (default), the shortest settling or "
+      "the least static-error, of the worst unit");
+  command->add_option("--share SHARE", options->share,
+                      "Set the share of the units that must meet the target; default 100 %");
+  command->add_option("--phase-margin ANGLE", options->phase_margin,
+                      "Set the least phase margin of the linear loop; default 30 deg");
+  command->add_option("--units N", options->units,
+                      "Set the number of units to which each proposal is put; default 64");
+  command->add_option("--seed N", options->seed, "Set the seed of the units; default 1960");
+  command->add_option("--write FILE", options->write, "Write the tuned drive to this file");
+  command->add_option("--format FORMAT", options->format,
+                      "Choose the format: text (default) or json");
   add_limit_options(*command, options->limits);
   set_action(*command, action, options, tune_explanation + help_footer(tune_examples), run);
 }

@@ -31,8 +31,7 @@ std::string table_text(const std::vector<std::vector<std::string>>& rows) {
   return text;
 }
 
-std::string wrapped(const std::string& paragraph) {
-  constexpr std::size_t columns = 92;
+std::string wrapped(const std::string& paragraph, std::size_t columns) {
   std::string text;
   std::string line;
   std::istringstream words(paragraph);

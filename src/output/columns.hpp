@@ -13,7 +13,7 @@ std::size_t width_in_columns(const std::string& text);
 /// Rows of cells in aligned columns, two blanks before each, no blanks at the ends of lines.
 std::string table_text(const std::vector<std::vector<std::string>>& rows);
 
-/// The paragraph broken between words into lines of at most 92 columns; ends with a newline.
-std::string wrapped(const std::string& paragraph);
+/// The paragraph broken between words into lines of at most so many columns; ends with a newline.
+std::string wrapped(const std::string& paragraph, std::size_t columns = 92);
 
 }  // namespace gearlash
