@@ -91,9 +91,11 @@ struct PointOfMap {
   double amplitude = 0.0;
   double motor_amplitude = 0.0;
   double period = 0.0;
+  double multiplier = 0.0;  ///< NaN where no cycle was closed
 };
 
-constexpr std::array asked = {Quantity::amplitude, Quantity::motor_amplitude, Quantity::period};
+constexpr std::array asked = {Quantity::amplitude, Quantity::motor_amplitude, Quantity::period,
+                              Quantity::multiplier};
 
 bool is_near(double one, double other, double share) {
   if (std::isnan(one) || std::isnan(other)) return std::isnan(one) && std::isnan(other);
@@ -115,14 +117,23 @@ bool is_equal(const PointOfMap& point, const Answer& own) {
          (!is_cycle || is_near(point.period, value(Quantity::period), share));
 }
 
+/// A motion that was measured, and not closed, may be a cycle of several of its swings.
+bool is_same(const PointOfMap& point, const Cycle& cycle) {
+  if (!std::isnan(point.multiplier)) {
+    return is_near(point.amplitude, cycle.amplitude, of_a_cycle) &&
+           is_near(point.period, cycle.period, of_a_cycle);
+  }
+  const double swings = std::round(cycle.period / point.period);
+  return is_near(point.amplitude, cycle.amplitude, of_irregular_motion) &&
+         is_near(swings * point.period, cycle.period, of_irregular_motion);
+}
+
 /// Whether what the map shows is one of the motions that the search found.
 bool is_listed(const PointOfMap& point, const Answer& own) {
   if (point.amplitude == 0.0 && point.motor_amplitude == 0.0) return own.rest.has_value();
   return std::any_of(own.cycles.begin(), own.cycles.end(),
                      [&](const Cycle& cycle) {
-                       return cycle.stability != Stability::unstable &&
-                              is_near(point.amplitude, cycle.amplitude, of_a_cycle) &&
-                              is_near(point.period, cycle.period, of_a_cycle);
+                       return cycle.stability != Stability::unstable && is_same(point, cycle);
                      }) ||
          std::any_of(own.irregular.begin(), own.irregular.end(), [&](const IrregularMotion& one) {
            return is_near(point.amplitude, one.amplitude, of_irregular_motion);
@@ -130,7 +141,11 @@ bool is_listed(const PointOfMap& point, const Answer& own) {
 }
 
 std::string text_of(const PointOfMap& point, const Answer& own) {
-  const auto number = [](double value) { return " " + std::to_string(value); };
+  const auto number = [](double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, " %.6g", value);
+    return std::string(text);
+  };
   std::string text = std::string("map: ") + name_of(point.verdict) + number(point.amplitude) +
                      number(point.period) + "; alone: " + name_of(own.verdict);
   for (const Cycle& cycle : own.cycles) {
@@ -161,7 +176,8 @@ void compare(const Map& map, std::size_t points, SeededDraws& draws, Counts& cou
     const PointOfMap point{.verdict = table.verdict(row),
                            .amplitude = table[Quantity::amplitude][row],
                            .motor_amplitude = table[Quantity::motor_amplitude][row],
-                           .period = table[Quantity::period][row]};
+                           .period = table[Quantity::period][row],
+                           .multiplier = table[Quantity::multiplier][row]};
     const Answer own = analyse(drive);
     ++counts.points;
     counts.hunting += point.amplitude > 0.0 ? 1U : 0U;
