@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "general/attractors/cycle_closing.hpp"
 #include "general/attractors/found_cycle.hpp"
@@ -394,12 +395,16 @@ std::vector<Outcome> representatives(const std::vector<Outcome>& all) {
   return some;
 }
 
-/// How motions end, whichever starts lead there. What an undecided start does matters beside one
-/// that rests, not beside swings alone.
-std::set<MotionEnd> ends_of(const std::vector<Outcome>& outcomes) {
-  std::set<MotionEnd> ends;
-  for (const Outcome& outcome : outcomes) ends.insert(outcome.end);
-  if (!ends.contains(MotionEnd::rest)) ends.erase(MotionEnd::undecided);
+/// How motions end, whichever starts lead there, and of irregular motion whether the motor moves
+/// alone. What an undecided start does matters beside one that rests, not beside swings alone.
+std::set<std::pair<MotionEnd, bool>> ends_of(const std::vector<Outcome>& outcomes,
+                                             const std::vector<IrregularFound>& irregular) {
+  std::set<std::pair<MotionEnd, bool>> ends;
+  for (const Outcome& outcome : outcomes) {
+    ends.emplace(outcome.end,
+                 outcome.end == MotionEnd::irregular && irregular[outcome.which].is_motor_alone);
+  }
+  if (!ends.contains({MotionEnd::rest, false})) ends.erase({MotionEnd::undecided, false});
   return ends;
 }
 
@@ -413,7 +418,8 @@ bool is_alike(const FoundCycle& a, const FoundCycle& b) {
 std::optional<AttractorSearch> follow_attractors(const ReducedDrive& drive,
                                                  const AttractorSearch& known, Progress& progress) {
   const std::vector<Outcome> wanted = representatives(known.outcomes);
-  const bool is_open = ends_of(known.outcomes).contains(MotionEnd::undecided);
+  const auto ends = ends_of(known.outcomes, known.irregular);
+  const bool is_open = ends.contains({MotionEnd::undecided, false});
   if (!known.is_complete || wanted.empty() || is_open) return std::nullopt;
   AttractorOptions options{.nearby = &known, .most_edges = 0};
   for (const Outcome& outcome : wanted) {
@@ -424,7 +430,7 @@ std::optional<AttractorSearch> follow_attractors(const ReducedDrive& drive,
   for (std::size_t i = 0; i < found.cycles.size(); ++i) {
     if (!is_alike(found.cycles[i], known.cycles[i])) return std::nullopt;
   }
-  if (ends_of(found.outcomes) != ends_of(wanted)) return std::nullopt;
+  if (ends_of(found.outcomes, found.irregular) != ends) return std::nullopt;
   return found;
 }
 

@@ -11,8 +11,14 @@ bool are_alike(const Answer& one, const Answer& other) {
     return std::count_if(answer.cycles.begin(), answer.cycles.end(),
                          [](const Cycle& cycle) { return cycle.stability == Stability::stable; });
   };
+  const auto moves_irregularly = [](const Answer& answer, bool alone) {
+    return std::any_of(
+        answer.irregular.begin(), answer.irregular.end(),
+        [&](const IrregularMotion& motion) { return motion.is_motor_alone == alone; });
+  };
   return one.verdict == other.verdict && stable(one) == stable(other) &&
-         one.irregular.empty() == other.irregular.empty();
+         moves_irregularly(one, true) == moves_irregularly(other, true) &&
+         moves_irregularly(one, false) == moves_irregularly(other, false);
 }
 
 class Run {
