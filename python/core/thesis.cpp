@@ -60,9 +60,9 @@ std::vector<PrintedLine> lines_of_port(const ProgramParameters& parameters, std:
 }
 
 /// Rows of x and y.
-py::array_t<double> rows_of(const std::vector<ChartPoint>& points) {
+py::array_t<double> rows_of(const std::vector<MapPoint>& points) {
   std::vector<double> numbers;
-  for (const ChartPoint& point : points) numbers.insert(numbers.end(), {point.x, point.y});
+  for (const MapPoint& point : points) numbers.insert(numbers.end(), {point.x, point.y});
   return array_of(std::move(numbers)).reshape({py::ssize_t(points.size()), py::ssize_t{2}});
 }
 
@@ -111,7 +111,7 @@ py::list figures() {
   for (const thesis::Figure& figure : thesis::thesis_figures()) {
     py::list curves;
     for (const thesis::FigureCurve& curve : figure.curves) {
-      const ChartCurve done = interruptible(
+      const NamedCurve done = interruptible(
           py::none(), [&](Progress& reports) { return work_out(figure, curve, reports); });
       curves.append(py::dict("name"_a = curve.name, "exact"_a = rows_of(done.line),
                              "program"_a = rows_of(done.marks)));
