@@ -126,7 +126,11 @@ MotionPicture hunting_picture(const std::string& title, const Drive& drive,
   const drive::ShaftStates start = outcome != nullptr ? outcome->start : drive::ShaftStates{};
   picture.period = search.swing_time > 0.0 ? search.swing_time : 1.0;
   picture.hunting_period = seen.period;
-  const double until = std::max(swings * picture.period, seen.approach + periods * seen.period);
+  const bool runs_away = outcome != nullptr && seen.end == drive::MotionEnd::diverges;
+  const double longest = 0.25 * most_periods_drawn * picture.period;
+  const double until =
+      std::max({swings * picture.period, seen.approach + periods * seen.period,
+                runs_away ? std::min(outcome->watched, longest) : 0.0});  // so that it shows
   hybrid::Trajectory trajectory =
       hybrid::simulate(system.system, drive::drive_start(reduced, system, start),
                        {.until = until, .event_limit = most_events});

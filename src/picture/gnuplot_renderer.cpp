@@ -181,7 +181,7 @@ Page page_of(const Plot& plot) {
 // ---- commands -----------------------------------------------------------------------------------
 
 double font_size(PictureFormat format) {
-  return format == PictureFormat::svg ? 15.0 : format == PictureFormat::png ? 25.0 : 8.8;
+  return format == PictureFormat::svg ? 15.0 : format == PictureFormat::png ? 25.0 : 8.2;
 }
 
 std::string terminal(PictureFormat format, double height) {

@@ -175,6 +175,7 @@ void add_all_contours(const GridTable& table, Quantity quantity,
     }
   };
   avoid(boundary);
+  if (const auto mark = mark_of(table)) lines.push_back({paper.on_paper(*mark)});
   for (const Contour& contour : contours) avoid(contour.curves);
   for (const Contour& contour : ceilings) avoid(contour.curves);
   TextPlacer placer(std::move(lines), panel.height);

@@ -147,7 +147,7 @@ DrawnAxis drawn_x(const Panel& panel, double width) {
 DrawnAxis drawn_y(const Panel& panel) {
   constexpr double margin = 0.03;
   return drawn_axis(panel, panel.y, &MapPoint::y, margin,
-                    std::clamp(static_cast<int>(panel.height / 25.0), 4, 7));
+                    std::clamp(static_cast<int>(panel.height / 25.0), 5, 7));
 }
 
 std::string mixed(const Colour& from, const Colour& to, double share) {

@@ -30,13 +30,21 @@ Layer layer_of(const Layer& style, MapCurve points) {
   return layer;
 }
 
-/// What is drawn from `from` to `to`, s: the whole motion, or its end.
+Extent heights_of(const MapCurve& points) {
+  Extent heights;
+  for (const MapPoint& point : points) {
+    if (std::isfinite(point.y)) heights.include(point.y);
+  }
+  return heights;
+}
+
+/// A motion, and what its panels share. Angles are in the picture's unit.
 struct Response {
   const MotionPicture& picture;
   const Motion& motion;
   std::vector<DrawnPiece> pieces;
   double end_time;
-  double gap;  ///< in the picture's unit, as are positions
+  double gap;
   double torque_limit;
   double encoder_step;
   Extent positions;
@@ -163,9 +171,8 @@ class TimeColumn {
     const double half = 0.5 * response_.gap;
     MapCurve gap = over_time(
         [](const DrawnPoint& point) { return point.motor_position - point.load_position; });
-    Extent range;
+    Extent range = heights_of(gap);
     for (const double face : {-half, half}) range.include(face);
-    for (const MapPoint& point : gap) range.include(point.y);
     Panel drawn = panel("gap", response_.picture.angle.name, widened(range, 0.12), 120.0);
     drawn.layers.push_back(layer_of(face_style, joined({at(-half), at(half)})));
     drawn.layers.push_back(layer_of(gap_line_style, std::move(gap)));
@@ -203,10 +210,7 @@ class TimeColumn {
     constexpr double near = 0.4;
     const double limit = response_.torque_limit;
     MapCurve torque = torque_over_time();
-    Extent range;
-    for (const MapPoint& point : torque) {
-      if (std::isfinite(point.y)) range.include(point.y);
-    }
+    Extent range = heights_of(torque);
     const bool is_near =
         std::isfinite(limit) && std::max(std::abs(range.low), range.high) > near * limit;
     if (is_near) {

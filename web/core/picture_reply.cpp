@@ -74,35 +74,29 @@ Json axis_json(const DrawnAxis& axis, bool is_logarithmic) {
            })}};
 }
 
-const char* name_of(LayerKind kind) {
-  switch (kind) {
-    case LayerKind::line:
-      return "line";
-    case LayerKind::area:
-      return "area";
-    case LayerKind::marks:
-      return "marks";
-    case LayerKind::hatching:
-      return "hatching";
-  }
-  return "";
-}
+// In the order of the enumerators.
+constexpr std::array layer_kinds = {"line", "area", "marks", "hatching"};
+constexpr std::array mark_shapes = {"plus",     "cross",         "star",    "open_square",
+                                    "square",   "circle",        "disc",    "open_triangle",
+                                    "triangle", "open_wedge",    "wedge",   "open_diamond",
+                                    "diamond",  "open_pentagon", "pentagon"};
 
-const char* name_of(Mark mark) {
-  constexpr std::array names = {"plus",     "cross",         "star",    "open_square",
-                                "square",   "circle",        "disc",    "open_triangle",
-                                "triangle", "open_wedge",    "wedge",   "open_diamond",
-                                "diamond",  "open_pentagon", "pentagon"};
-  return names.at(static_cast<std::size_t>(mark));
+template <class Enumerator, std::size_t Count>
+const char* name_of(Enumerator one, const std::array<const char*, Count>& names) {
+  return names.at(static_cast<std::size_t>(one));
 }
 
 Json layer_json(const Layer& layer, Numbers& numbers) {
   std::vector<double> points;
   for (const MapPoint& point : layer.points) points.insert(points.end(), {point.x, point.y});
-  return {{"kind", name_of(layer.kind)}, {"name", layer.name},
-          {"colour", layer.colour},      {"width", layer.width},
-          {"dashes", layer.dashes},      {"mark", name_of(layer.mark)},
-          {"size", layer.size},          {"points", numbers.add(points)}};
+  return {{"kind", name_of(layer.kind, layer_kinds)},
+          {"name", layer.name},
+          {"colour", layer.colour},
+          {"width", layer.width},
+          {"dashes", layer.dashes},
+          {"mark", name_of(layer.mark, mark_shapes)},
+          {"size", layer.size},
+          {"points", numbers.add(points)}};
 }
 
 Json panel_json(const Panel& panel, Numbers& numbers) {
