@@ -90,7 +90,7 @@ struct Border {
   BorderKind kind = BorderKind::unnamed;  ///< what happens there
   double at = 0.0;       ///< where it happens; the end where that is not known more closely
   double located = 0.0;  ///< the relative distance to which `at` is located
-  std::string event{};   ///< of a grazing: "mode: event"
+  std::string event{};   ///< of a grazing: "mode: event"; else empty
 };
 
 /// How far a target's limits of ceilings are proved over an interval of values.
@@ -141,8 +141,8 @@ struct FeasibleValues {
   bool stopped = false;  ///< by Progress: values not reached are undecided
 
   [[nodiscard]] bool contains(double value) const;
-  /// The feasible value nearest to the present one, by ratio. Empty where nothing meets the target.
-  [[nodiscard]] std::optional<double> nearest() const;
+  [[nodiscard]] std::optional<double> nearest()
+      const;  ///< the feasible value nearest to the present one, by ratio; empty where none is
   /// The value of each interval that is nearest to the present one; where nothing meets the target,
   /// the one that comes closest.
   [[nodiscard]] std::vector<double> nearest_of_each() const;

@@ -149,9 +149,6 @@ void add_design(py::module_& module) {
   module.def("permits", [](py::handle values, double value) {
     return from_python<FeasibleValues>(values, "values").contains(value);
   });
-  module.def("nearest", [](py::handle values) {
-    return to_python(from_python<FeasibleValues>(values, "values").nearest());
-  });
 }
 
 }  // namespace gearlash::python

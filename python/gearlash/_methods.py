@@ -145,9 +145,4 @@ class FeasibleValues(Record):
         """Whether the value of the parameter meets the target."""
         return _core.permits(self, value)
 
-    @property
-    def nearest(self) -> float | None:
-        """The feasible value nearest to the present one, by ratio; None where there is none."""
-        return _core.nearest(self)
-
 

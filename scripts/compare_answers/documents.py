@@ -1,4 +1,5 @@
 """The JSON of version 0.3, whose keys are the members of the structs, in the shapes of 0.2."""
+import math
 
 
 def range_of(bounds):
@@ -121,7 +122,6 @@ def designed(answer):
 
 
 def distance(value, present):
-    import math
     return abs(math.log(value / present)) if value > 0 and present > 0 else abs(value - present)
 
 
@@ -223,7 +223,10 @@ def grid(document):
 
 
 def simulate(document):
-    return {**document, "stopped": {"reason": document["stop"], "time": document["end_time"]}}
+    samples = document["samples"]
+    known = [name for name in samples["columns"] if name != "is_apart"]  # the last, which 0.2 had not
+    return {**document, "stopped": {"reason": document["stop"], "time": document["end_time"]},
+            "samples": {**samples, "columns": known}}
 
 
 def predicted(source, cycles):

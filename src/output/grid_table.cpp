@@ -9,16 +9,6 @@
 namespace gearlash {
 namespace {
 
-ByName<ParameterValue> without(ByName<ParameterValue> values, const std::vector<Axis>& axes,
-                               const Drive& drive) {
-  for (const Axis& axis : axes) {
-    const Parameter* parameter = parameter_of(axis, drive);
-    if (parameter == nullptr || axis.path.find('[') != std::string::npos) continue;
-    std::erase_if(values, [&](const auto& one) { return one.first == parameter->path; });
-  }
-  return values;
-}
-
 GridAxis document_of(const Axis& axis, const Drive& drive) {
   GridAxis shown{
       .path = axis.path, .unit = unit_of(axis, drive), .is_logarithmic = axis.logarithmic};
@@ -78,7 +68,13 @@ std::string certainty_of(const Grid& grid) {
 }
 
 ByName<ParameterValue> fixed_parameters(const Grid& grid) {
-  return without(parameter_values(grid.drive), grid.axes, grid.drive);
+  ByName<ParameterValue> values = parameter_values(grid.drive);
+  for (const Axis& axis : grid.axes) {
+    const Parameter* parameter = parameter_of(axis, grid.drive);
+    if (parameter == nullptr || axis.path.find('[') != std::string::npos) continue;
+    std::erase_if(values, [&](const auto& one) { return one.first == parameter->path; });
+  }
+  return values;
 }
 
 void write_grid_csv(const GridTable& table, const TextSink& sink) {

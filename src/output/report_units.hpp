@@ -10,7 +10,7 @@ namespace gearlash {
 
 /// How a file was made, with enough detail to make it again.
 struct Provenance {
-  std::string command{};  ///< on one line, as typed into a shell
+  std::string command{};  ///< on one line, as typed into a shell; empty from a program
   std::string version{};  ///< of Gearlash
 };
 
