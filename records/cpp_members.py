@@ -33,7 +33,8 @@ def record_text(struct: Struct) -> str:
     name = qualified(struct)
 
     def listed(members) -> str:
-        return ",\n".join(f'      Member{{"{member.name}", &{name}::{member.name}{other(member)}}}'
+        return ",\n".join(f'      {"Opened" if member.is_opened(struct) else "Member"}'
+                          f'{{"{member.name}", &{name}::{member.name}{other(member)}}}'
                           for member in members)
 
     members = struct.all_members

@@ -18,6 +18,11 @@ class Member:
     comment: str
     is_computed: bool = False
 
+    def is_opened(self, struct: "Struct") -> bool:
+        """Whether its own members stand in its place: what a document says of a drive, and how it
+        was made."""
+        return bool(struct.document) and self.name in ("answer", "provenance")
+
 
 @dataclass
 class Struct:

@@ -87,9 +87,20 @@ def sentence(comment: str) -> str:
     return comment if comment.endswith((".", "…")) else comment + "."
 
 
+def opened_members(struct: Struct, source: Source) -> list[Member]:
+    """Its members as a document has them, each name once."""
+    members = [inner for member in struct.all_members
+               for inner in (source.structs[member.type].all_members
+                             if member.is_opened(struct) else [member])]
+    names = [member.name for member in members]
+    if len(set(names)) < len(names):
+        raise ValueError(f"{struct.name} has two members of one name: {names}")
+    return members
+
+
 def object_of(struct: Struct, source: Source, first: dict, last: dict) -> dict:
     properties = first | {member.name: member_schema(member, source)
-                          for member in struct.all_members} | last
+                          for member in opened_members(struct, source)} | last
     return {"description": sentence(struct.comment) if struct.comment else
             f"{in_words(struct.name).capitalize()}.",
             "type": "object", "additionalProperties": False, "required": list(properties),

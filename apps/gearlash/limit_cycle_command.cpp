@@ -30,7 +30,7 @@ constexpr char limit_cycle_examples[] =
     "  gearlash limit-cycle examples/elinco-fd162.toml --sensitivities --plot "
     "tornado=amplitude.svg\n"
     "  gearlash limit-cycle examples/normalized.toml --format json | jq "
-    ".answer.cycles[0].amplitude\n"
+    ".cycles[0].amplitude\n"
     "  gearlash limit-cycle examples/robot-joint.toml --set controller.kp=\"0.8 V/deg\" --brief\n"
     "  gearlash limit-cycle examples/elinco-fd162.toml --specification \"10 arcmin\"\n"
     "  gearlash limit-cycle examples/robot-joint.toml --measured \"0.2 deg, 1.1 Hz\"\n"

@@ -192,6 +192,10 @@ struct Threshold {
   double from = 0.0;       ///< rad, the smallest step known that does
 };
 
+struct RunAway {
+  std::size_t starts = 0;  ///< from which motions do
+};
+
 /// The record of a search.
 struct SearchRecord {
   /// s: the longest that a start is followed, unless hardly anything happens or it stands still.
@@ -354,6 +358,8 @@ struct Answer {
   /// value() of each that is a number, by its name.
   [[nodiscard]] std::vector<std::pair<std::string_view, std::optional<double>>> values()
       const;  ///< of every quantity, by its name
+  [[nodiscard]] std::optional<RunAway> runaway()
+      const;  ///< motions that run away; empty where none was found
 };
 
 /// The enumerator's name with spaces: "cannot hunt", "hunts if disturbed", …

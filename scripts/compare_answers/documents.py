@@ -93,7 +93,7 @@ def in_the_end(answer, drive):
 
 
 def limit_cycle(document):
-    answer, specified = document["answer"], document["specification"]
+    answer, specified = document, document["specification"]
     found = in_the_end(answer, document["drive"])
     if specified is not None and answer["ceiling"]:
         load = answer["ceiling"]["load"]
@@ -244,7 +244,7 @@ KINDS = {"friction controlled backlash": "friction-controlled backlash",
 
 
 def describe(document):
-    answer = document["answer"]
+    answer = document
     return {**in_the_end(answer, document["drive"]), "analyses": [
         {**one, "in_loop": any(one["loop"]["numerator"]),
          "nonlinearity": {**one["nonlinearity"], "kind": KINDS.get(one["nonlinearity"]["kind"],

@@ -203,6 +203,11 @@ std::optional<double> Answer::value(Quantity quantity) const {
   return entry_of(quantity).value(*this);
 }
 
+std::optional<RunAway> Answer::runaway() const {
+  const std::size_t starts = search ? search->count("diverges") : 0;
+  return starts > 0 ? std::optional(RunAway{starts}) : std::nullopt;
+}
+
 std::vector<std::pair<std::string_view, std::optional<double>>> Answer::values() const {
   std::vector<std::pair<std::string_view, std::optional<double>>> all;
   for (const QuantityInfo& info : quantities()) {

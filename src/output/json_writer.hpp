@@ -105,9 +105,14 @@ class JsonWriter {
   /// The members of a struct, within object().
   template <class Struct>
   void members(const Struct& value) {
-    const auto write = [&](const auto&... one) {
-      (member(one.name, std::invoke(one.place, value)), ...);
+    const auto write_one = [&](const auto& one) {
+      if constexpr (records::is_a<std::remove_cvref_t<decltype(one)>, records::Opened>) {
+        members(std::invoke(one.place, value));
+      } else {
+        member(one.name, std::invoke(one.place, value));
+      }
     };
+    const auto write = [&](const auto&... one) { (write_one(one), ...); };
     std::apply(write, records::Record<Struct>::members);
     std::apply(write, records::Record<Struct>::computed);
   }

@@ -18,6 +18,12 @@ Member(const char*, Place) -> Member<Place>;  // clang 16 deduces no aggregate
 template <class Place>
 Member(const char*, Place, const char*) -> Member<Place>;
 
+/// One whose own members stand in its place.
+template <class Place>
+struct Opened : Member<Place> {};
+template <class Place>
+Opened(const char*, Place) -> Opened<Place>;
+
 /// Specialised for every struct: its name, the tuple `members` of those it holds and the tuple
 /// `computed` of those it computes, and for what the tool prints `document`, the name of its
 /// schema: "gearlash/design/3".

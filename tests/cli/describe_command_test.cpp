@@ -35,8 +35,8 @@ TEST(DescribeCommand, PutsThePredictionBesideTheExactCycle) {
   const Outcome run = describe(of_servo({"--format", "json"}));
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
-  EXPECT_NEAR(json["answer"]["cycles"][0]["amplitude"], 0.2416, 5e-5);
-  EXPECT_NEAR(json["answer"]["cycles"][0]["period"], 6.456, 5e-4);
+  EXPECT_NEAR(json["cycles"][0]["amplitude"], 0.2416, 5e-5);
+  EXPECT_NEAR(json["cycles"][0]["period"], 6.456, 5e-4);
   const auto& held = json["analyses"][0]["cycles"][1];
   EXPECT_NEAR(held["amplitude"], 0.2332, 5e-5);
   EXPECT_NEAR(held["balance"]["period"], 7.872, 5e-4);
@@ -54,10 +54,10 @@ TEST(DescribeCommand, ADataSheetIsDescribedInSeconds) {
   const auto exact = nlohmann::json::parse(
       run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--format", "json"}).out);
   EXPECT_EQ(json["units"], "SI");
-  EXPECT_EQ(json["answer"]["cycles"][0]["period"], exact["answer"]["cycles"][0]["period"]);
-  EXPECT_EQ(json["answer"]["cycles"][0]["amplitude"], exact["answer"]["cycles"][0]["amplitude"]);
-  const double frequency = exact["answer"]["normal_form"]["natural_frequency"];
-  const double damping = exact["answer"]["normal_form"]["damping"];
+  EXPECT_EQ(json["cycles"][0]["period"], exact["cycles"][0]["period"]);
+  EXPECT_EQ(json["cycles"][0]["amplitude"], exact["cycles"][0]["amplitude"]);
+  const double frequency = exact["normal_form"]["natural_frequency"];
+  const double damping = exact["normal_form"]["damping"];
   // K/(J s² + F s), the denominator's lead 1.
   const auto& loop = json["analyses"][0]["loop"];
   EXPECT_NEAR(loop["numerator"][0].get<double>() / (frequency * frequency), 1.0, 1e-14);
@@ -112,7 +112,7 @@ derivative = "0.6 N m s/rad"
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
   EXPECT_EQ(json["units"], "SI");
-  EXPECT_THAT(json["answer"]["verdict"].get<std::string>(), HasSubstr("rest"));
+  EXPECT_THAT(json["verdict"].get<std::string>(), HasSubstr("rest"));
   ASSERT_EQ(json["analyses"].size(), 4U);
   EXPECT_EQ(json["analyses"][2]["part"], "torque limit");
   EXPECT_EQ(json["analyses"][2]["nonlinearity"]["limit"], 3.0);
@@ -141,7 +141,7 @@ frequency = "1 Hz"
   EXPECT_THAT(text.out, StartsWith("forced oscillation: ±3.09 deg"));
   EXPECT_THAT(text.out, testing::Not(HasSubstr("error")));
   const auto json = nlohmann::json::parse(describe({path.string(), "--format", "json"}).out);
-  EXPECT_EQ(json["answer"]["verdict"], "forced");
+  EXPECT_EQ(json["verdict"], "forced");
   EXPECT_TRUE(json["analyses"][0]["cycles"][0]["error"].is_null());
 }
 

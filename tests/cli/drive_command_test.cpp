@@ -73,28 +73,28 @@ TEST_F(DriveCommand, ADriveWithAClosedFormIsTheServoThatItIs) {
   const Outcome run = run_tool({"limit-cycle", drive});
   EXPECT_EQ(run.status, 0) << run.err;
   const json found = json::parse(run_tool({"limit-cycle", drive, "--format", "json"}).out);
-  EXPECT_EQ(found["answer"]["engine"], "closed form");
-  EXPECT_EQ(found["answer"]["verdict"], "hunts");
+  EXPECT_EQ(found["engine"], "closed form");
+  EXPECT_EQ(found["verdict"], "hunts");
   // The search finds the same cycle once the closed form is barred, here by a limit that is never
   // reached, and the answer has the same keys.
   const Outcome searched =
       run_tool({"limit-cycle", drive, "--set", "motor.torque_limit=1e9 N m", "--format", "json"});
   EXPECT_EQ(searched.status, 0) << searched.err;
   const json other = json::parse(searched.out);
-  EXPECT_EQ(other["answer"]["engine"], "general");
+  EXPECT_EQ(other["engine"], "general");
   for (const auto& [key, value] : found.items()) EXPECT_TRUE(other.contains(key)) << key;
-  for (const auto& [key, value] : found["answer"]["cycles"][0].items()) {
-    EXPECT_TRUE(other["answer"]["cycles"][0].contains(key)) << key;
+  for (const auto& [key, value] : found["cycles"][0].items()) {
+    EXPECT_TRUE(other["cycles"][0].contains(key)) << key;
   }
   const auto number = [](const json& value) { return value.get<double>(); };
-  EXPECT_NEAR(number(other["answer"]["cycles"][0]["amplitude"]) /
-                  number(found["answer"]["cycles"][0]["amplitude"]),
+  EXPECT_NEAR(number(other["cycles"][0]["amplitude"]) /
+                  number(found["cycles"][0]["amplitude"]),
               1.0, 1e-9);
-  EXPECT_NEAR(number(other["answer"]["cycles"][0]["period"]) /
-                  number(found["answer"]["cycles"][0]["period"]),
+  EXPECT_NEAR(number(other["cycles"][0]["period"]) /
+                  number(found["cycles"][0]["period"]),
               1.0, 1e-9);
-  EXPECT_NEAR(number(other["answer"]["cycles"][0]["separated_time"]) /
-                  number(found["answer"]["cycles"][0]["separated_time"]),
+  EXPECT_NEAR(number(other["cycles"][0]["separated_time"]) /
+                  number(found["cycles"][0]["separated_time"]),
               1.0, 1e-9);
 }
 
@@ -127,7 +127,7 @@ TEST_F(DriveCommand, AReferenceThatMovesForEverHasNoClosedForm) {
   const auto method = [&](const std::string& reference) {
     const std::string drive = file(std::string(mechanics) + proportional + reference);
     const Outcome run = run_tool({"limit-cycle", drive, "--format", "json"});
-    return json::parse(run.out)["answer"]["engine"].get<std::string>();
+    return json::parse(run.out)["engine"].get<std::string>();
   };
   EXPECT_EQ(method("[reference]\nkind = \"step\"\nafter = \"1 rad\"\n"), "closed form");
   EXPECT_THAT(method("[reference]\nkind = \"sine\"\namplitude = \"1 deg\"\n"

@@ -157,7 +157,7 @@ TEST(SimulateCommand, JsonHoldsSamplesEventsBooksAndWhereItStopped) {
     EXPECT_EQ(row[1].get<double>(), motion.at(row[0].get<double>()).shafts.load_position);
   }
   EXPECT_EQ(
-      printed["provenance"]["command"],
+      printed["command"],
       "gearlash simulate --until 12 --every 0.5 --format json --restitution 0.3 --reference 1 "
       "--damping 0.19 --inertia-ratio 2 --friction-ratio 1/10 --backlash 0.3");
 }

@@ -70,10 +70,10 @@ void expect_decided(const std::filesystem::path& file) {
   EXPECT_EQ(run.status, 0) << run.err;
   if (run.status != 0) return;
   const json answer = json::parse(run.out);
-  EXPECT_NE(answer["answer"]["verdict"], "undecided");
-  if (answer["answer"]["search"].is_null()) return;
-  EXPECT_TRUE(answer["answer"]["search"]["is_complete"].get<bool>());
-  for (const json& start : answer["answer"]["search"]["starts"])
+  EXPECT_NE(answer["verdict"], "undecided");
+  if (answer["search"].is_null()) return;
+  EXPECT_TRUE(answer["search"]["is_complete"].get<bool>());
+  for (const json& start : answer["search"]["starts"])
     EXPECT_NE(start["end"], "undecided");
 }
 

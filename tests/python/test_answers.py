@@ -10,7 +10,7 @@ def without_provenance(report):
     """The report without what made it, and without the unit of angles in its text."""
     if isinstance(report, dict):
         return {key: without_provenance(value) for key, value in report.items()
-                if key not in ("provenance", "angle", "angles")}
+                if key not in ("provenance", "version", "command", "angle", "angles")}
     return [without_provenance(one) for one in report] if isinstance(report, list) else report
 
 
