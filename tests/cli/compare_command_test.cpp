@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
 
 #include "tool.hpp"
 
@@ -48,11 +50,11 @@ void expect_those_of_limit_cycle(const Words& words, const std::vector<Words>& a
     const Words command = joined({"limit-cycle"}, alone[i]);
     SCOPED_TRACE(testing::PrintToString(command));
     const json expected = json::parse(run_tool(joined(command, {"--format", "json"})).out);
-    // compare asks for the linear loop and the step besides.
-    json found = printed["drives"][i]["answer"];
-    for (const char* besides : {"loop", "step", "values"})
-      found[besides] = expected["answer"][besides];
-    EXPECT_EQ(found, expected["answer"]);
+    const std::set<std::string> besides = {"loop", "step", "values"};  // compare asks for them
+    for (const auto& [key, found] : printed["drives"][i]["answer"].items()) {
+      if (besides.contains(key)) continue;
+      EXPECT_EQ(found, expected[key]) << key;
+    }
     EXPECT_EQ(printed["drives"][i]["drive"], expected["drive"]);
     const std::string headline = run_tool(joined(command, {"--brief"})).out;
     EXPECT_THAT(headlines[i] + "\n", testing::EndsWith("  " + headline));

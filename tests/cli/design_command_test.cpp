@@ -53,7 +53,7 @@ TEST(DesignCommand, AnswersPutIntoTheDataSheetMeetTheTarget) {
     for (const std::string& value : values) {
       const Outcome then = run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--set",
                                      name + "=" + value + unit, "--format", "json"});
-      const auto cycles = nlohmann::json::parse(then.out)["answer"]["cycles"];
+      const auto cycles = nlohmann::json::parse(then.out)["cycles"];
       ASSERT_FALSE(cycles.empty());
       EXPECT_NEAR(cycles[0]["amplitude"], limit, 1e-10 * limit);
     }
@@ -161,7 +161,7 @@ TEST(DesignCommand, ATachometerThatIsAskedForEndsTheHunting) {
         run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--set",
                   std::string("controller.motor_speed_feedback=") + feedback, "--format", "json"});
     EXPECT_EQ(run.status, 0) << run.err;
-    return nlohmann::json::parse(run.out)["answer"]["verdict"].get<std::string>();
+    return nlohmann::json::parse(run.out)["verdict"].get<std::string>();
   };
   EXPECT_EQ(verdict_with("7.5022 V s/rad"), "hunts");
   EXPECT_EQ(verdict_with("7.5023 V s/rad"), "cannot hunt");
@@ -205,7 +205,7 @@ TEST(DesignCommand, OfAnyDriveAreItsAnswersThoseOfLimitCycle) {
                   "json"});
     double largest = 0.0;
     const auto found = nlohmann::json::parse(one.out);
-    for (const auto& cycle : found["answer"]["cycles"]) {
+    for (const auto& cycle : found["cycles"]) {
       largest = std::max(largest, cycle["amplitude"].get<double>());
     }
     return largest;

@@ -110,7 +110,7 @@ class ReadBack(unittest.TestCase):
         self.assert_points_are_single_calls(data)
         run(TOOL, *arguments, "--output", self.path("map.json"))
         curves = json.loads(pathlib.Path(self.path("map.json")).read_text())["hunting_boundary"]
-        points = [point for curve in curves for point in curve]
+        points = [[point["x"], point["y"]] for curve in curves for point in curve]
         x = data["hunting_boundary_inertia_ratio"].values
         y = data["hunting_boundary_damping"].values
         self.assertGreater(len(points), 20)

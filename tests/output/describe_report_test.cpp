@@ -69,8 +69,8 @@ TEST(DescribeReport, JsonHasEveryNumber) {
   const auto json = nlohmann::json::parse(describe_json(report));
   ASSERT_EQ(json["analyses"].size(), 3U);
   EXPECT_EQ(json["schema"], "gearlash/describe/3");
-  EXPECT_EQ(json["answer"]["verdict"], "hunts");
-  EXPECT_EQ(json["answer"]["cycles"][0]["frequency"], 0.25);
+  EXPECT_EQ(json["verdict"], "hunts");
+  EXPECT_EQ(json["cycles"][0]["frequency"], 0.25);
   const auto& gap = json["analyses"][0];
   EXPECT_EQ(gap["part"], "gap, load held by friction");
   EXPECT_EQ(gap["nonlinearity"]["gap"], 2.0);
