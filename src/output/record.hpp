@@ -41,17 +41,11 @@ template <class Enumeration>
 struct Words;
 
 template <class Type>
-concept IsRecord = requires {
-  Record<Type>::members;
-};
+concept IsRecord = requires { Record<Type>::members; };
 template <class Type>
-concept IsDocument = requires {
-  Record<Type>::document;
-};
+concept IsDocument = requires { Record<Type>::document; };
 template <class Type>
-concept IsWord = requires {
-  Words<Type>::all;
-};
+concept IsWord = requires { Words<Type>::all; };
 
 template <class Type, template <class...> class Template>
 inline constexpr bool is_a = false;

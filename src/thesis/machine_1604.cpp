@@ -135,33 +135,33 @@ std::optional<Word> Machine1604::accumulator_after(const Instruction& instructio
   const auto operand = [&] { return read(address_of(instruction)); };
   const auto number = [&] { return Float1604::of(operand()); };
   switch (instruction.operation) {
-    case* operation_of("ARS"):
+    case *operation_of("ARS"):
       return shifted_right(a, address_of(instruction));
-    case* operation_of("ALS"):
+    case *operation_of("ALS"):
       return shifted_left_around(a, address_of(instruction));
-    case* operation_of("ENA"):
+    case *operation_of("ENA"):
       return extended(address_of(instruction));
-    case* operation_of("INA"):
+    case *operation_of("INA"):
       return total(a, extended(address_of(instruction)));
-    case* operation_of("LDA"):
+    case *operation_of("LDA"):
       return operand();
-    case* operation_of("LAC"):
+    case *operation_of("LAC"):
       return complement(operand());
-    case* operation_of("ADD"):
+    case *operation_of("ADD"):
       return total(a, operand());
-    case* operation_of("SUB"):
+    case *operation_of("SUB"):
       return difference(a, operand());
-    case* operation_of("STA"):
+    case *operation_of("STA"):
       return a;
-    case* operation_of("RAO"):
+    case *operation_of("RAO"):
       return total(operand(), 1);
-    case* operation_of("FAD"):
+    case *operation_of("FAD"):
       return sum(Float1604::of(a), number(), rules_.sum).word();
-    case* operation_of("FSB"):
+    case *operation_of("FSB"):
       return sum(Float1604::of(a), -number(), rules_.sum).word();
-    case* operation_of("FMU"):
+    case *operation_of("FMU"):
       return product(Float1604::of(a), number(), rules_.product).word();
-    case* operation_of("FDV"):
+    case *operation_of("FDV"):
       return quotient(Float1604::of(a), number(), rules_.quotient).word();
     default:
       return std::nullopt;
@@ -176,23 +176,23 @@ bool Machine1604::execute_index(const Instruction& instruction) {
     if (b != 0) registers_.index[b] = value;
   };
   switch (instruction.operation) {
-    case* operation_of("ENI"):
+    case *operation_of("ENI"):
       set(instruction.operand);
       return true;
-    case* operation_of("INI"):
+    case *operation_of("INI"):
       set(index_total(registers_.index[b], instruction.operand));
       return true;
-    case* operation_of("LIU"):
+    case *operation_of("LIU"):
       set(upper_instruction(read(instruction.operand)).operand);
       return true;
-    case* operation_of("LIL"):
+    case *operation_of("LIL"):
       set(lower_instruction(read(instruction.operand)).operand);
       return true;
-    case* operation_of("SIU"):
+    case *operation_of("SIU"):
       write(instruction.operand,
             with_upper_address(read(instruction.operand), registers_.index[b]));
       return true;
-    case* operation_of("SIL"):
+    case *operation_of("SIL"):
       write(instruction.operand,
             with_lower_address(read(instruction.operand), registers_.index[b]));
       return true;
@@ -204,30 +204,30 @@ bool Machine1604::execute_index(const Instruction& instruction) {
 bool Machine1604::execute_jump(const Instruction& instruction) {
   const unsigned b = instruction.designator;
   switch (instruction.operation) {
-    case* operation_of("SLJ"): {
+    case *operation_of("SLJ"): {
       constexpr unsigned return_jump_always = 4;
       if (b != 0 && b != return_jump_always) fault("jump keys are not provided");
       b == 0 ? jump(instruction.operand) : return_jump(instruction.operand);
       return true;
     }
-    case* operation_of("AJP"): {
+    case *operation_of("AJP"): {
       const Word a = registers_.a;
       const std::array condition = {a == 0, a != 0, !is_negative(a), is_negative(a)};
       if (b >= condition.size()) fault("AJP to a return jump is not provided");
       condition[b] ? jump(instruction.operand) : advance();
       return true;
     }
-    case* operation_of("SSK"):
+    case *operation_of("SSK"):
       exit_fully_if(is_negative(read(address_of(instruction))));
       return true;
-    case* operation_of("ISK"): {
+    case *operation_of("ISK"): {
       unsigned& index = index_register(b);
       const bool reached = index == instruction.operand;
       index = reached ? 0 : index_total(index, 1);
       exit_fully_if(reached);
       return true;
     }
-    case* operation_of("IJP"): {
+    case *operation_of("IJP"): {
       unsigned& index = index_register(b);
       constexpr unsigned minus_one = 077776;
       const bool more = index != 0;

@@ -87,15 +87,13 @@ TEST_F(DriveCommand, ADriveWithAClosedFormIsTheServoThatItIs) {
     EXPECT_TRUE(other["cycles"][0].contains(key)) << key;
   }
   const auto number = [](const json& value) { return value.get<double>(); };
-  EXPECT_NEAR(number(other["cycles"][0]["amplitude"]) /
-                  number(found["cycles"][0]["amplitude"]),
+  EXPECT_NEAR(number(other["cycles"][0]["amplitude"]) / number(found["cycles"][0]["amplitude"]),
               1.0, 1e-9);
-  EXPECT_NEAR(number(other["cycles"][0]["period"]) /
-                  number(found["cycles"][0]["period"]),
-              1.0, 1e-9);
-  EXPECT_NEAR(number(other["cycles"][0]["separated_time"]) /
-                  number(found["cycles"][0]["separated_time"]),
-              1.0, 1e-9);
+  EXPECT_NEAR(number(other["cycles"][0]["period"]) / number(found["cycles"][0]["period"]), 1.0,
+              1e-9);
+  EXPECT_NEAR(
+      number(other["cycles"][0]["separated_time"]) / number(found["cycles"][0]["separated_time"]),
+      1.0, 1e-9);
 }
 
 TEST_F(DriveCommand, SimulateTakesTheClosedFormAndSaysSo) {

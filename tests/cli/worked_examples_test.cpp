@@ -73,8 +73,7 @@ void expect_decided(const std::filesystem::path& file) {
   EXPECT_NE(answer["verdict"], "undecided");
   if (answer["search"].is_null()) return;
   EXPECT_TRUE(answer["search"]["is_complete"].get<bool>());
-  for (const json& start : answer["search"]["starts"])
-    EXPECT_NE(start["end"], "undecided");
+  for (const json& start : answer["search"]["starts"]) EXPECT_NE(start["end"], "undecided");
 }
 
 TEST(WorkedExamples, OfTheProjectAreDecided) {
