@@ -10,6 +10,7 @@
 #include "module.hpp"
 #include "output/drive_text.hpp"
 #include "output/records.hpp"
+#include "record.hpp"
 
 namespace gearlash::python {
 namespace {

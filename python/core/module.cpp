@@ -7,6 +7,7 @@
 #include "gearlash/version.hpp"
 #include "interruptible.hpp"
 #include "output/records.hpp"
+#include "record.hpp"
 
 namespace gearlash::python {
 namespace {
