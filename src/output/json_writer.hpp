@@ -231,6 +231,11 @@ class JsonWriter {
   bool is_empty_ = true;  ///< nothing stands yet within the innermost bracket
 };
 
+template <class Document>
+concept HasDrive = requires(const Document& document) {
+  { document.drive } -> std::convertible_to<const Drive&>;
+};
+
 /// The JSON of a document with the name of its schema, and the defaults of its drive. Ends with a
 /// newline.
 template <records::IsDocument Document>
@@ -240,9 +245,7 @@ void write_document(const Document& document, const TextSink& sink) {
     writer.member("schema", records::Record<Document>::document);
     writer.member("units", "SI");
     writer.members(document);
-    if constexpr (requires {
-                    { document.drive } -> std::convertible_to<const Drive&>;
-                  }) {
+    if constexpr (HasDrive<Document>) {
       writer.member("defaults", defaults_taken(document.drive));
     }
   });
