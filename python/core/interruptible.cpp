@@ -61,7 +61,7 @@ LongCall::~LongCall() {
 }
 
 void stop_calls_at_exit() {
-  constexpr std::chrono::seconds patience(2);
+  constexpr std::chrono::seconds patience(30);
   const py::gil_scoped_release unlocked;
   std::unique_lock held(calls().mutex);
   calls().must_stop = true;

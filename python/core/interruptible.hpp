@@ -27,7 +27,8 @@ class LongCall {
   LongCall& operator=(const LongCall&) = delete;
 };
 
-/// Stops the calls of all other threads and waits for them, for two seconds at most: for atexit.
+/// Stops the calls of all other threads and waits for them, for half a minute at most, for they use
+/// what the program destroys at its end: for atexit.
 void stop_calls_at_exit();
 
 /// Gives up the interpreter's lock. Throws std::logic_error outside of a LongCall.

@@ -312,18 +312,6 @@ Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive
 
 namespace {
 
-using IsEnough = std::function<bool(const drive::AttractorSearch&)>;
-
-/// With what a search begins, and where it may stop.
-struct SearchScope {
-  const Analysis* near = nullptr;            ///< to be followed
-  IsEnough is_enough{};                      ///< as of AttractorOptions
-  std::vector<drive::ShaftStates> starts{};  ///< likewise
-};
-
-Analysis analysed(const SoundDrive& drive, const Wanted& wanted, Progress& progress,
-                  const SearchScope& scope);
-
 /// Whether the motion that a headline names is of so few encoder steps that they may be its cause.
 bool is_of_few_steps(const Answer& answer) {
   std::optional<double> steps;
@@ -361,8 +349,9 @@ std::optional<bool> is_quantization(const Drive& drive, const drive::AttractorSe
                         },
                     .starts = starts_that_swing(search)};
   const Answer answer =
-      analysed(exact, {.proofs = false, .borders = false, .motion_bytes = wanted.motion_bytes},
-               progress, scope)
+      analyse_in_full(exact,
+                      {.proofs = false, .borders = false, .motion_bytes = wanted.motion_bytes},
+                      progress, scope)
           .answer;
   if (answer.largest_stable() != nullptr || !answer.irregular.empty()) return false;
   if (answer.search && !answer.search->is_complete) return std::nullopt;
@@ -385,56 +374,6 @@ void take_for_computed(Answer& answer) {
   for (Cycle& cycle : answer.cycles) demote(cycle.certainty);
   answer.is_dissipative = false;
   answer.bounds.reset();
-}
-
-Analysis analysed(const SoundDrive& sound, const Wanted& wanted, Progress& progress,
-                  const SearchScope& scope) {
-  const Drive& drive = sound.given();
-  Analysis analysis;
-  analysis.reduced = sound.settled();
-  if ((analysis.servo = settled_servo(sound))) {
-    ClosedAnswer found = closed_answer(drive, *analysis.servo, wanted.proofs);
-    analysis.answer = std::move(found.answer);
-    analysis.closed = std::move(found.cycles);
-  } else if (is_absent_by_energy(sound)) {
-    analysis.search = drive::AttractorSearch{};
-    analysis.answer = answer_by_energy(analysis.reduced);
-  } else {
-    if (scope.near != nullptr && scope.near->search) {
-      analysis.search = drive::follow_attractors(analysis.reduced, *scope.near->search, progress);
-      analysis.is_followed = analysis.search.has_value();
-    }
-    if (!analysis.search) {
-      analysis.search = drive::find_attractors(
-          analysis.reduced,
-          {.starts = scope.starts,
-           .is_enough = scope.is_enough,
-           .most_edges = wanted.borders ? drive::AttractorOptions{}.most_edges : 0,
-           .band = wanted.rest_band,
-           .budget = {.bytes_kept = wanted.motion_bytes}},
-          progress);
-    }
-    analysis.answer = answer_of(*analysis.search, analysis.reduced);
-  }
-  add_figures(sound, wanted, analysis.answer, progress);
-  if (wanted.ceiling) {
-    Ceiling& ceiling = *analysis.answer.ceiling;
-    ceiling.mesh_torque = highest_mean_mesh_torque(sound);
-    ceiling.is_below_limit = has_torque_limit(analysis.reduced);
-  }
-  // The motion from which a ceiling is measured stands in the end, unless a sine drives it.
-  if (!is_driven(analysis.reduced)) withdraw_if_contradictory(analysis.answer);
-  if (wanted.quantization && analysis.search && is_of_few_steps(analysis.answer)) {
-    analysis.answer.is_quantization = is_quantization(drive, *analysis.search, wanted, progress);
-  }
-  std::vector<Note> notes = notes_on(sound);
-  if (!proves()) {
-    take_for_computed(analysis.answer);
-    notes.push_back(
-        {"arithmetic", "Nothing is proved: " + std::string(fault_of_arithmetic()) + "."});
-  }
-  analysis.answer.notes.insert(analysis.answer.notes.begin(), notes.begin(), notes.end());
-  return analysis;
 }
 
 }  // namespace
@@ -500,18 +439,62 @@ std::optional<AnswerBounds> proved_bounds(const Drive& drive, const Answer& answ
   return bounds_of(box_of(drive, *servo), flight_time_of(answer));
 }
 
-Analysis analyse_in_full(const SoundDrive& drive, const Wanted& wanted, Progress& progress) {
-  return analysed(drive, wanted, progress, {});
-}
-
-Analysis analyse_near(const SoundDrive& drive, const Analysis& near, const Wanted& wanted,
-                      Progress& progress) {
-  return analysed(drive, wanted, progress, {.near = &near});
-}
-
-Analysis analyse_until(const SoundDrive& drive, const Wanted& wanted, const IsEnough& is_enough,
-                       Progress& progress, const Analysis* near) {
-  return analysed(drive, wanted, progress, {.near = near, .is_enough = is_enough});
+Analysis analyse_in_full(const SoundDrive& sound, const Wanted& wanted, Progress& progress,
+                         const SearchScope& scope) {
+  const Drive& drive = sound.given();
+  Analysis analysis;
+  analysis.reduced = sound.settled();
+  if ((analysis.servo = settled_servo(sound))) {
+    ClosedAnswer found = closed_answer(drive, *analysis.servo, wanted.proofs);
+    analysis.answer = std::move(found.answer);
+    analysis.closed = std::move(found.cycles);
+  } else if (is_absent_by_energy(sound)) {
+    analysis.search = drive::AttractorSearch{};
+    analysis.answer = answer_by_energy(analysis.reduced);
+  } else {
+    if (scope.near != nullptr && scope.near->search) {
+      drive::IsEnough suffices;
+      if (scope.suffices) {
+        suffices = [&](const drive::AttractorSearch& found) {
+          return scope.suffices(answer_of(found, analysis.reduced));
+        };
+      }
+      analysis.search =
+          drive::follow_attractors(analysis.reduced, *scope.near->search, progress, suffices);
+      analysis.is_followed = analysis.search.has_value();
+    }
+    if (!analysis.search) {
+      analysis.search = drive::find_attractors(
+          analysis.reduced,
+          {.starts = scope.starts,
+           .is_enough = scope.is_enough,
+           .may_hurry = scope.may_hurry,
+           .most_edges = wanted.borders ? drive::AttractorOptions{}.most_edges : 0,
+           .band = wanted.rest_band,
+           .budget = {.bytes_kept = wanted.motion_bytes}},
+          progress);
+    }
+    analysis.answer = answer_of(*analysis.search, analysis.reduced);
+  }
+  add_figures(sound, wanted, analysis.answer, progress);
+  if (wanted.ceiling) {
+    Ceiling& ceiling = *analysis.answer.ceiling;
+    ceiling.mesh_torque = highest_mean_mesh_torque(sound);
+    ceiling.is_below_limit = has_torque_limit(analysis.reduced);
+  }
+  // The motion from which a ceiling is measured stands in the end, unless a sine drives it.
+  if (!is_driven(analysis.reduced)) withdraw_if_contradictory(analysis.answer);
+  if (wanted.quantization && analysis.search && is_of_few_steps(analysis.answer)) {
+    analysis.answer.is_quantization = is_quantization(drive, *analysis.search, wanted, progress);
+  }
+  std::vector<Note> notes = notes_on(sound);
+  if (!proves()) {
+    take_for_computed(analysis.answer);
+    notes.push_back(
+        {"arithmetic", "Nothing is proved: " + std::string(fault_of_arithmetic()) + "."});
+  }
+  analysis.answer.notes.insert(analysis.answer.notes.begin(), notes.begin(), notes.end());
+  return analysis;
 }
 
 Answer analyse(const Drive& drive, const Wanted& wanted, Progress& progress) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "closed_form/limit_cycle.hpp"
 #include "gearlash/analyse.hpp"
@@ -24,20 +25,20 @@ struct Analysis {
   bool is_followed = false;  ///< the search followed that of a neighbouring drive
 };
 
+/// With what a search begins, and where it may stop.
+struct SearchScope {
+  /// Of a drive that differs slightly: follow_attractors() is tried first.
+  const Analysis* near = nullptr;
+  /// Whether an answer that was followed suffices, although its motions are of other kinds.
+  std::function<bool(const Answer& followed)> suffices{};
+  drive::IsEnough is_enough{};               ///< as of AttractorOptions
+  drive::IsEnough may_hurry{};               ///< likewise
+  std::vector<drive::ShaftStates> starts{};  ///< likewise
+};
+
 /// Answers for a drive. Only the final value, ramp or sine of a reference or load torque matters.
 Analysis analyse_in_full(const SoundDrive& drive, const Wanted& wanted = {},
-                         Progress& progress = no_progress());
-
-/// The same for a drive that differs slightly from one that was analysed: by follow_attractors(),
-/// else by a search. Other drives are analysed afresh.
-Analysis analyse_near(const SoundDrive& drive, const Analysis& near, const Wanted& wanted = {},
-                      Progress& progress = no_progress());
-
-/// The same, but where a search is needed it ends with the first start after which `is_enough`.
-/// `near`: as of analyse_near(), or nullptr.
-Analysis analyse_until(const SoundDrive& drive, const Wanted& wanted,
-                       const std::function<bool(const drive::AttractorSearch&)>& is_enough,
-                       Progress& progress = no_progress(), const Analysis* near = nullptr);
+                         Progress& progress = no_progress(), const SearchScope& scope = {});
 
 /// What is proved of all drives that the drive's data may stand for; empty where nothing is, but
 /// for ceilings. `answer`: the drive's own.

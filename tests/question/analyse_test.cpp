@@ -74,12 +74,35 @@ TEST(Analyse, EndsWithTheStartAfterWhichNoMoreAreWanted) {
   const Drive drive = pd_drive();
   const Answer whole = analyse(drive, {.borders = false});
   const Answer part =
-      analyse_until(drive, {.borders = false}, [](const drive::AttractorSearch& search) {
-        return search.outcomes.size() == 3;
-      }).answer;
+      analyse_in_full(
+          drive, {.borders = false}, no_progress(),
+          {.is_enough =
+               [](const drive::AttractorSearch& search) { return search.outcomes.size() == 3; }})
+          .answer;
   ASSERT_GT(whole.search->starts.size(), 3U);
   EXPECT_EQ(part.search->starts.size(), 3U);
   EXPECT_EQ(part.search->starts[2].end, whole.search->starts[2].end);
+}
+
+TEST(Analyse, FollowedMotionOfAnotherKindServesWhereItSuffices) {
+  const Wanted wanted{.proofs = false, .borders = false};
+  Drive stiff = pd_drive();
+  std::get<PID>(stiff.controller.law).proportional = 4.0;
+  const Analysis hunting = analyse_in_full(stiff, wanted);
+  ASSERT_TRUE(hunts(hunting.answer.verdict));
+  const Drive still = pd_drive();
+  const Analysis afresh = analyse_in_full(still, wanted, no_progress(), {.near = &hunting});
+  EXPECT_FALSE(afresh.is_followed);
+  ASSERT_TRUE(is_at_rest(afresh.answer.verdict));
+  const auto rests = [](const Answer& answer) { return is_at_rest(answer.verdict); };
+  const Analysis followed =
+      analyse_in_full(still, wanted, no_progress(), {.near = &hunting, .suffices = rests});
+  EXPECT_TRUE(followed.is_followed);
+  EXPECT_EQ(followed.answer.verdict, afresh.answer.verdict);
+  EXPECT_LT(followed.answer.search->starts.size(), afresh.answer.search->starts.size());
+  const auto never = [](const Answer&) { return false; };
+  EXPECT_FALSE(analyse_in_full(still, wanted, no_progress(), {.near = &hunting, .suffices = never})
+                   .is_followed);
 }
 
 /// Its faces come to bounce without end before it sticks, and a state that stands recurs at once: a
@@ -103,9 +126,10 @@ TEST(EdgeAnalyse, ElasticFacesUnderACascadeHaveAnAnswer) {
                                            .tracking_time = 0.007281293848360734};
   drive.controller.shaft = GainShaft::motor;
   const Answer answer =
-      analyse_until(  // the ninth start led there
-          drive, {.proofs = false, .borders = false},
-          [](const drive::AttractorSearch& search) { return search.outcomes.size() == 9; })
+      analyse_in_full(  // the ninth start led there
+          drive, {.proofs = false, .borders = false}, no_progress(),
+          {.is_enough =
+               [](const drive::AttractorSearch& search) { return search.outcomes.size() == 9; }})
           .answer;
   EXPECT_EQ(answer.search->count("undecided"), 0U);
 }
@@ -127,7 +151,8 @@ TEST(Analyse, NearFollowsACycleThatSticksForLong) {
   for (const double power : {5.0, 9.0, 11.0, 12.0, 13.0}) {
     const double derivative = 0.02 * std::pow(1.05, power);
     const Analysis known = analyse_in_full(drive_with(derivative), wanted);
-    const Analysis near = analyse_near(drive_with(derivative / 1.014), known, wanted);
+    const Analysis near =
+        analyse_in_full(drive_with(derivative / 1.014), wanted, no_progress(), {.near = &known});
     EXPECT_TRUE(near.is_followed) << derivative;
     EXPECT_EQ(near.answer.cycles.at(0).kind, CycleKind::symmetric) << derivative;
   }

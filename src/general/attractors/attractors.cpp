@@ -105,8 +105,13 @@ class Search {
     return result_.is_complete;
   }
 
+  double patience() const {
+    if (!options_.may_hurry || !options_.may_hurry(result_)) return budget_.patience;
+    return setting_.drive.sampling ? budget_.hurried_if_sampled / budget_.patience_if_sampled : 1.0;
+  }
+
   Verdict end_of(const ShaftStates& start, double longer = 1.0) {
-    Verdict verdict = classifier_.end_of(setting_.start(start), budget_.patience, longer);
+    Verdict verdict = classifier_.end_of(setting_.start(start), patience(), longer);
     if (verdict.end == MotionEnd::rest) {
       verdict.time_to_rest = classifier_.time_to_rest(verdict, result_.band);
     }
@@ -413,25 +418,37 @@ bool is_alike(const FoundCycle& a, const FoundCycle& b) {
          a.is_symmetric == b.is_symmetric;
 }
 
+/// Whether motions are as those that are known, and starts end alike.
+bool is_as(const AttractorSearch& found, const AttractorSearch& known) {
+  return std::equal(found.cycles.begin(), found.cycles.end(), known.cycles.begin(),
+                    known.cycles.end(), is_alike) &&
+         ends_of(found.outcomes, found.irregular) == ends_of(known.outcomes, known.irregular);
+}
+
 }  // namespace
 
 std::optional<AttractorSearch> follow_attractors(const ReducedDrive& drive,
-                                                 const AttractorSearch& known, Progress& progress) {
+                                                 const AttractorSearch& known, Progress& progress,
+                                                 const IsEnough& suffices) {
   const std::vector<Outcome> wanted = representatives(known.outcomes);
-  const auto ends = ends_of(known.outcomes, known.irregular);
-  const bool is_open = ends.contains({MotionEnd::undecided, false});
+  const bool is_open =
+      ends_of(known.outcomes, known.irregular).contains({MotionEnd::undecided, false});
   if (!known.is_complete || wanted.empty() || is_open) return std::nullopt;
   AttractorOptions options{.nearby = &known, .most_edges = 0};
   for (const Outcome& outcome : wanted) {
     options.starts.push_back(within_gap(outcome.start, drive));
   }
   AttractorSearch found = find_attractors(drive, options, progress);
-  if (!found.is_complete || found.cycles.size() != known.cycles.size()) return std::nullopt;
-  for (std::size_t i = 0; i < found.cycles.size(); ++i) {
-    if (!is_alike(found.cycles[i], known.cycles[i])) return std::nullopt;
+  if (suffices && found.count(MotionEnd::undecided) == found.outcomes.size()) {
+    constexpr std::size_t most = 3;  // undecided starts take long
+    options.starts.clear();
+    options.is_enough = [&](const AttractorSearch& search) {
+      return suffices(search) || search.outcomes.size() == most;
+    };
+    found = find_attractors(drive, options, progress);
   }
-  if (ends_of(found.outcomes, found.irregular) != ends) return std::nullopt;
-  return found;
+  const bool serves = is_as(found, known) || (suffices && suffices(found));
+  return found.is_complete && serves ? std::optional(std::move(found)) : std::nullopt;
 }
 
 }  // namespace gearlash::drive

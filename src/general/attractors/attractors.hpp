@@ -144,6 +144,8 @@ struct AttractorSearch {
   std::size_t count(MotionEnd end) const;
 };
 
+using IsEnough = std::function<bool(const AttractorSearch&)>;
+
 struct AttractorOptions {
   /// Replaces the search's own starts, which are these: at rest at 0.01 to 100 times the backlash,
   /// on either face, and passing the reference at some speed. (Encoder steps, and the positions
@@ -152,7 +154,10 @@ struct AttractorOptions {
   std::vector<ShaftStates> starts{};
   /// Asked after each start. Where it is true no further start is watched, and the search is as
   /// complete as these make it.
-  std::function<bool(const AttractorSearch&)> is_enough{};
+  IsEnough is_enough{};
+  /// Asked before each start. Where it is true a motion in which hardly anything happens is watched
+  /// for no longer than others (SearchBudget::patience), and may be undecided for that.
+  IsEnough may_hurry{};
   /// The search of a drive that differs slightly from this one. Those of its cycles that Newton's
   /// method finds again are known from the beginning.
   const AttractorSearch* nearby = nullptr;
@@ -186,11 +191,13 @@ AttractorSearch find_attractors(const ReducedDrive& drive, const AttractorOption
 /// the first and the last. Empty if one of the cycles is not found again with the same stability,
 /// symmetry and number of events, or these starts do not end alike: in rest, cycles, irregular
 /// motion or running away, all that there were and no other. Something new may have appeared then,
-/// and a search must find it. Empty also where `known` was stopped, or has undecided starts beside
-/// some that rest. Throws InvalidInput.
+/// and a search must find it, unless what was found `suffices`; where all these starts are
+/// undecided the first usual ones are asked for that too. Empty also where `known` was stopped, or
+/// has undecided starts beside some that rest. Throws InvalidInput.
 std::optional<AttractorSearch> follow_attractors(const ReducedDrive& drive,
                                                  const AttractorSearch& known,
-                                                 Progress& progress = no_progress());
+                                                 Progress& progress = no_progress(),
+                                                 const IsEnough& suffices = {});
 
 /// Those of the cycles of `known` that Newton's method finds again in a drive that differs
 /// slightly, stable or not, with the system that their orbits are of. Nothing is watched: the

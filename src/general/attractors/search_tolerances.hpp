@@ -157,6 +157,8 @@ struct SearchBudget {
   double counted_between_events = 1.0;
   /// A sampled motion in which hardly anything happens is watched this many times longer.
   double patience_if_sampled = 200.0;
+  /// ... but this many times, whatever else, where the search may hurry.
+  double hurried_if_sampled = 10.0;
   /// Where watching costs as long as it lasts, because the drive is sampled, a sine acts on it, or
   /// it takes more steps than are kept, all time counts, but of a standstill this share.
   double counted_if_costly = 0.1;

@@ -26,10 +26,13 @@ struct GridRun {
 bool misses(const JudgedValue& one) { return one.is_known && !one.is_met; }
 
 /// Analyses the ends afresh. Where both miss the target, the values between are followed from one
-/// to the next, and analysed afresh if they then meet it; else the middle is analysed afresh too,
-/// and so on.
+/// to the next, and analysed afresh unless their verdicts miss it too; else the middle is analysed
+/// afresh too, and so on.
 std::vector<JudgedValue> on_grid(JudgedLine& judged, const std::vector<double>& grid) {
   AnalysedLine& line = judged.line();
+  const auto is_missed_there = [&](const Answer& there) {
+    return is_missed(judged.target(), there);
+  };
   std::vector<JudgedValue> all(grid.size());
   std::vector<AnalysedLine::Known> analyses(grid.size());
   std::vector<std::size_t> next = {0};
@@ -62,7 +65,7 @@ std::vector<JudgedValue> on_grid(JudgedLine& judged, const std::vector<double>& 
     const auto [low, high] = missing[i];
     AnalysedLine::Known near = analyses[low];
     for (std::size_t place = low + 1; place < high; ++place) {
-      const AnalysedLine::Known here = line.followed(grid[place], near);
+      const AnalysedLine::Known here = line.followed(grid[place], near, is_missed_there);
       all[place] = judged.judged(grid[place], here);
       const bool is_followed = here && here->is_followed;
       if (is_followed && !misses(all[place])) all[place] = judged.afresh(grid[place]);
@@ -216,10 +219,10 @@ std::vector<JudgedValue> judged_numbers(JudgedLine& line, FeasibleValues& found)
   return tried;
 }
 
-/// Precondition: `found` has its grid.
+/// Returns the fresh analysis of the closest value, or nullptr. Precondition: `found` has its grid.
 template <class Search>
-void fill(FeasibleValues& found, const DriveAlong& drive, const Target& target,
-          const Wanted& wanted, Progress& progress, const Search& search) {
+AnalysedLine::Known fill(FeasibleValues& found, const DriveAlong& drive, const Target& target,
+                         const Wanted& wanted, Progress& progress, const Search& search) {
   found.kind = SearchKind::searched;
   // The ends of intervals take about as many analyses as the grid.
   JudgedLine line(drive, wanted, 2 * found.grid.size(), target, progress);
@@ -227,6 +230,10 @@ void fill(FeasibleValues& found, const DriveAlong& drive, const Target& target,
   if (found.intervals.empty()) found.closest = closest_of(tried);
   found.evaluations = line.line().evaluations();
   found.stopped = line.line().is_stopped();
+  const auto closest =
+      found.closest ? line.line().known().find(*found.closest) : line.line().known().end();
+  const bool is_fresh = closest != line.line().known().end() && !closest->second->is_followed;
+  return is_fresh ? closest->second : nullptr;
 }
 
 }  // namespace
@@ -238,15 +245,16 @@ FeasibleValues feasible_along(const DriveAlong& drive, const std::vector<double>
   return found;
 }
 
-void search_numbers(const Drive& drive, const Axis& axis, const Target& target,
-                    FeasibleValues& found, Progress& progress) {
-  fill(found, drives_along(axis, drive), target, wanted_for(target, drive), progress,
-       judged_numbers);
+AnalysedLine::Known search_numbers(const Drive& drive, const Axis& axis, const Target& target,
+                                   FeasibleValues& found, Progress& progress) {
+  return fill(found, drives_along(axis, drive), target, wanted_for(target, drive), progress,
+              judged_numbers);
 }
 
-void search_words(const Drive& drive, const Axis& axis, const Target& target, FeasibleValues& found,
-                  Progress& progress) {
-  fill(found, drives_along(axis, drive), target, wanted_for(target, drive), progress, judged_words);
+AnalysedLine::Known search_words(const Drive& drive, const Axis& axis, const Target& target,
+                                 FeasibleValues& found, Progress& progress) {
+  return fill(found, drives_along(axis, drive), target, wanted_for(target, drive), progress,
+              judged_words);
 }
 
 }  // namespace gearlash

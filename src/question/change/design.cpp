@@ -6,13 +6,14 @@
 #include "base/progress_part.hpp"
 #include "question/analyse.hpp"
 #include "question/axis.hpp"
+#include "question/change/values.hpp"
 
 namespace gearlash {
 namespace {
 
-/// Without an axis the drive is as it is.
+/// Without an axis the drive is as it is. `known`: its analysis by a search, or nullptr.
 DriveWithValue with_value(const Drive& base, const Axis* axis, double value, const Target& target,
-                          Progress& progress) {
+                          Progress& progress, const AnalysedLine::Known& known = nullptr) {
   Wanted wanted = wanted_for(target, base);
   wanted.borders = true;
   for (const Quantity cost : {Quantity::bandwidth, Quantity::overshoot}) {
@@ -20,7 +21,10 @@ DriveWithValue with_value(const Drive& base, const Axis* axis, double value, con
   }
   Drive drive = base;
   if (axis != nullptr) set_on(*axis, drive, value);
-  return {.value = value, .answer = analyse(drive, wanted, progress)};
+  if (!known) return {.value = value, .answer = analyse(drive, wanted, progress)};
+  DriveWithValue one{.value = value, .answer = known->answer};
+  add_figures(drive, wanted, one.answer, progress);
+  return one;
 }
 
 Judgement judge_present(const Drive& drive, const Target& target, const Answer& present) {
@@ -42,9 +46,10 @@ Design design(const Drive& drive, const std::vector<Axis>& axes, const Target& t
   found.met = judge_present(drive, target, found.present.answer);
   for (const Axis& axis : axes) {
     ProgressPart part(progress, found.parameters.size(), axes.size());
-    DesignedParameter parameter{.values = values(drive, axis, target, part)};
+    AnalysedLine::Known at_closest;
+    DesignedParameter parameter{.values = values(drive, axis, target, part, at_closest)};
     for (const double value : parameter.values.nearest_of_each()) {
-      parameter.results.push_back(with_value(drive, &axis, value, target, part));
+      parameter.results.push_back(with_value(drive, &axis, value, target, part, at_closest));
     }
     found.parameters.push_back(std::move(parameter));
     if (!part.go_on(1.0)) break;

@@ -16,10 +16,6 @@ Judgement judge(const Bounds& limits, const Bounds& bounds) {
   return Judgement::some;
 }
 
-bool asks_for_rest(const Target& target) {
-  return target.no_hunting || target.no_hunting_if_disturbed;
-}
-
 bool asks_for_motion(const Target& target) {
   return std::any_of(target.limits.begin(), target.limits.end(), [](const QuantityLimit& limit) {
     return info_of(limit.quantity).scope == QuantityScope::motion;
@@ -63,13 +59,6 @@ bool permits_verdict(const Target& target, const Answer& answer) {
   if (asks_for_rest(target) && is_unstable(answer.verdict)) return false;
   if (target.no_hunting_if_disturbed && hunts_if_disturbed(answer)) return false;
   return !target.no_runaway || !runs_away(answer);
-}
-
-/// Whether the verdict or growth at rest alone shows that the target is missed.
-bool is_missed(const Target& target, const Answer& answer) {
-  if (is_at_rest(answer.verdict)) return false;
-  const std::optional<double> growth = answer.value(Quantity::growth_at_rest);
-  return !permits_verdict(target, answer) || (growth && is_ruled_out(target, *growth));
 }
 
 /// Whether the limit does not apply: a drive at rest has no frequency.
@@ -169,6 +158,10 @@ Wanted wanted_for(const Target& target, const Drive& base) {
 
 bool is_empty(const Target& target) { return target == Target{}; }
 
+bool asks_for_rest(const Target& target) {
+  return target.no_hunting || target.no_hunting_if_disturbed;
+}
+
 TargetParts parts_of(const Target& target, bool (*is_chosen)(Quantity)) {
   TargetParts parts{.chosen = target};
   parts.chosen.limits.clear();
@@ -205,6 +198,12 @@ bool is_ruled_out(const Target& target, double growth_at_rest) {
   const Bounds permitted = target.permitted(Quantity::growth_at_rest);
   return permitted != Target{}.permitted(Quantity::growth_at_rest) &&
          !permitted.contains(growth_at_rest);
+}
+
+bool is_missed(const Target& target, const Answer& answer) {
+  if (is_at_rest(answer.verdict)) return false;
+  const std::optional<double> growth = answer.value(Quantity::growth_at_rest);
+  return !permits_verdict(target, answer) || (growth && is_ruled_out(target, *growth));
 }
 
 bool is_met(const Target& target, const Answer& answer) {

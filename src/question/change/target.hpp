@@ -14,6 +14,9 @@ namespace gearlash {
 /// Whether all conditions are kept. An unknown value keeps no limit.
 bool is_met(const Target& target, const Answer& answer);
 
+/// Whether the verdict or growth at rest alone shows that the target is missed.
+bool is_missed(const Target& target, const Answer& answer);
+
 /// Whether it is known that the target is met or missed. It is unknown where a search for cycles
 /// did not finish, or the motion does not repeat.
 bool is_known(const Target& target, const Answer& answer);
@@ -47,6 +50,8 @@ struct TargetParts {
 
 /// Whether it asks for anything.
 bool is_empty(const Target& target);
+/// Whether the drive must come to rest, if only from small disturbances.
+bool asks_for_rest(const Target& target);
 /// The conditions on the verdict, and the limits of the quantities that are chosen.
 TargetParts parts_of(const Target& target, bool (*is_chosen)(Quantity));
 

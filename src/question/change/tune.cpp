@@ -131,14 +131,13 @@ class Units {
     JudgedUnit judged{.is_tried = true, .missed_by = loop.lacks};
     if (judged.missed_by > 0.0) return judged;
     const Drive drive = this->drive(unit, tuned);
-    judged.answer =
-        analyse_until(
-            drive, wanted_for(task_.target, task_.series.nominal),
-            [&](const drive::AttractorSearch& search) {
-              return is_missed_already(task_.target, search, drive.sampling.has_value());
-            },
-            progress)
-            .answer;
+    judged.answer = analyse_in_full(drive, wanted_for(task_.target, task_.series.nominal), progress,
+                                    {.is_enough =
+                                         [&](const drive::AttractorSearch& search) {
+                                           return is_missed_already(task_.target, search,
+                                                                    drive.sampling.has_value());
+                                         }})
+                        .answer;
     judged.is_met = is_met(task_.target, judged.answer);
     judged.is_known = is_known(task_.target, judged.answer);
     if (!judged.is_met) {

@@ -41,6 +41,7 @@ class JudgedLine {
   /// Without an analysis the drive is unsound, or the work was stopped.
   JudgedValue judged(double value, const AnalysedLine::Known& analysis) const;
 
+  const Target& target() const { return target_; }
   AnalysedLine& line() { return line_; }
   const AnalysedLine& line() const { return line_; }
 

@@ -44,7 +44,7 @@ std::vector<double> spread_over(const Bounds& range, std::size_t count, bool eve
 
 /// Answers that need no search, each asking whether to go on; empty for an unsound drive.
 AnalysedLine::Analyse answered_by(std::function<std::optional<Answer>(double value)> answer_at) {
-  return [answer_at = std::move(answer_at)](double value, const Analysis*,
+  return [answer_at = std::move(answer_at)](double value, const SearchScope&,
                                             Progress& progress) -> AnalysedLine::Known {
     std::optional<Answer> answer = progress.go_on(0.0) ? answer_at(value) : std::nullopt;
     if (!answer) return nullptr;
@@ -168,10 +168,10 @@ class ServoSearch {
   /// rest from hunting there.
   double last_allowed_by_growth(double met, double unmet) const {
     constexpr double told_apart = 1e-6;
-    const bool asks_for_rest = target_.no_hunting || target_.no_hunting_if_disturbed;
     const auto is_allowed = [&](double value) {
       const double growth = line_.growth_at(value);
-      return !is_ruled_out(target_, growth) && !(asks_for_rest && growth > 1.0 - told_apart);
+      return !is_ruled_out(target_, growth) &&
+             !(asks_for_rest(target_) && growth > 1.0 - told_apart);
     };
     if (is_allowed(unmet)) return unmet;
     for (;;) {
@@ -400,7 +400,8 @@ std::vector<std::string> usual_numbers_of_servo(const Drive& drive) {
 
 /// The values of a number that meet the target. `found` has its grid.
 FeasibleValues values_of_number(const Drive& drive, const Axis& axis, const Target& target,
-                                FeasibleValues found, Progress& progress) {
+                                FeasibleValues found, Progress& progress,
+                                AnalysedLine::Known& at_closest) {
   const std::optional<ServoLine> line = ServoLine::along(drive, axis.path);
   const bool is_bounded = line && !line->has_bounces();
   const auto [first, others] = is_bounded
@@ -418,9 +419,10 @@ FeasibleValues values_of_number(const Drive& drive, const Axis& axis, const Targ
     closed.present = found.present;
     found = std::move(closed);
   } else {
-    search_numbers(drive, axis, first, found, searching);
+    at_closest = search_numbers(drive, axis, first, found, searching);
   }
   if (!is_empty(others)) {
+    at_closest.reset();
     const bool of_motion =
         line && std::any_of(others.limits.begin(), others.limits.end(),
                             [](const QuantityLimit& limit) { return !is_figure(limit.quantity); });
@@ -501,6 +503,12 @@ std::vector<std::string> usual_parameters(const Drive& drive) {
 
 FeasibleValues values(const Drive& drive, const Axis& axis, const Target& target,
                       Progress& progress) {
+  AnalysedLine::Known at_closest;
+  return values(drive, axis, target, progress, at_closest);
+}
+
+FeasibleValues values(const Drive& drive, const Axis& axis, const Target& target,
+                      Progress& progress, AnalysedLine::Known& at_closest) {
   std::vector<Fault> all = faults(drive);
   for (const std::vector<Fault>& more : {faults_of_axis(axis, drive, "axis"), faults(target)}) {
     all.insert(all.end(), more.begin(), more.end());
@@ -515,12 +523,12 @@ FeasibleValues values(const Drive& drive, const Axis& axis, const Target& target
   std::sort(found.grid.begin(), found.grid.end());
   if (!parameter_of(axis, drive)->choices.empty()) {
     std::erase_if(found.grid, [&](double word) { return asks_for_more(axis, word, drive); });
-    search_words(drive, axis, target, found, progress);
+    at_closest = search_words(drive, axis, target, found, progress);
     return found;
   }
   cut_to_sound_drives(axis, drive, found);
   if (present && found.searched.contains(*present)) add_present(*present, found.grid);
-  return values_of_number(drive, axis, target, std::move(found), progress);
+  return values_of_number(drive, axis, target, std::move(found), progress, at_closest);
 }
 
 FeasibleValues values(const Drive& drive, std::string_view parameter, const Target& target,

@@ -6,6 +6,7 @@
 #include "gearlash/design.hpp"
 #include "gearlash/progress.hpp"
 #include "question/change/target.hpp"
+#include "question/family/analysed_line.hpp"
 
 namespace gearlash {
 
@@ -30,5 +31,10 @@ namespace gearlash {
 
 /// axis_to_search() of gearlash/design.hpp; faults name `field`. Precondition: a sound drive.
 Axis axis_to_search(std::string_view field, const Drive& drive, std::string_view parameter);
+
+/// values() of gearlash/design.hpp, and the fresh analysis of a search at the closest value;
+/// nullptr where there is none.
+FeasibleValues values(const Drive& drive, const Axis& axis, const Target& target,
+                      Progress& progress, AnalysedLine::Known& at_closest);
 
 }  // namespace gearlash

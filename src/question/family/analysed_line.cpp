@@ -8,6 +8,11 @@
 namespace gearlash {
 namespace {
 
+/// Where motion is too slow for a start to be decided, it may be so for others.
+bool is_slow(const drive::AttractorSearch& search) {
+  return search.count(drive::MotionEnd::undecided) > 0;
+}
+
 /// Where motion is too slow for the first starts to be decided, it is so for the others.
 bool is_hopeless(const drive::AttractorSearch& search) {
   constexpr std::size_t enough = 5;
@@ -32,11 +37,12 @@ AnalysedLine::AnalysedLine(const DriveAlong& drive, const Wanted& wanted, std::s
                            Progress& progress)
     : AnalysedLine(
           drive,
-          [drive, wanted](double value, const Analysis* near, Progress& heard) -> Known {
+          [drive, wanted](double value, SearchScope scope, Progress& heard) -> Known {
             const std::optional<SoundDrive> there = SoundDrive::of(drive(value));
             if (!there) return nullptr;
-            return std::make_shared<const Analysis>(
-                analyse_until(*there, wanted, is_hopeless, heard, near));
+            scope.is_enough = is_hopeless;
+            scope.may_hurry = is_slow;
+            return std::make_shared<const Analysis>(analyse_in_full(*there, wanted, heard, scope));
           },
           usual, progress) {}
 
@@ -48,8 +54,8 @@ bool AnalysedLine::Heard::go_on(double share, std::size_t bytes) {
   return !line_.is_stopped_;
 }
 
-AnalysedLine::Known AnalysedLine::analysed(double value, const Known& near) {
-  Known analysis = is_stopped_ ? nullptr : analyse_(value, near.get(), heard_);
+AnalysedLine::Known AnalysedLine::analysed(double value, const SearchScope& scope) {
+  Known analysis = is_stopped_ ? nullptr : analyse_(value, scope, heard_);
   if (!analysis) return nullptr;
   ++evaluations_;
   const Answer& answer = analysis->answer;

@@ -24,11 +24,12 @@ class AnalysedLine {
   using Known = std::shared_ptr<const Analysis>;
   /// Analyses the drive at a value, perhaps from one beside it; nullptr for an unsound drive, and
   /// where it was stopped.
-  using Analyse = std::function<Known(double value, const Analysis* near, Progress& progress)>;
+  using Analyse = std::function<Known(double value, const SearchScope& scope, Progress& progress)>;
 
   /// By `analyse`. `usual`: the number of analyses that are expected, for the progress alone.
   AnalysedLine(DriveAlong drive, Analyse analyse, std::size_t usual, Progress& progress);
-  /// By analyse_until(). Where the first five starts are undecided the others are left out.
+  /// By analyse_in_full(). Where a start is undecided the next are watched for less long, and where
+  /// the first five are, the others are left out.
   AnalysedLine(const DriveAlong& drive, const Wanted& wanted, std::size_t usual,
                Progress& progress);
 
@@ -39,9 +40,12 @@ class AnalysedLine {
   Progress& progress() { return heard_; }
 
   /// nullptr for an unsound drive, and where the work was stopped.
-  Known afresh(double value) { return analysed(value, nullptr); }
-  /// Followed from an analysis beside it.
-  Known followed(double value, const Known& near) { return analysed(value, near); }
+  Known afresh(double value) { return analysed(value, {}); }
+  /// Followed from an analysis beside it. `suffices`: as of SearchScope.
+  Known followed(double value, const Known& near,
+                 const std::function<bool(const Answer&)>& suffices = {}) {
+    return analysed(value, {.near = near.get(), .suffices = suffices});
+  }
   /// The one nearest to a value, or nullptr.
   Known nearest(double value) const;
   /// What is known by now, by value. Not while others analyse.
@@ -58,7 +62,7 @@ class AnalysedLine {
     AnalysedLine& line_;
   };
 
-  Known analysed(double value, const Known& near);
+  Known analysed(double value, const SearchScope& scope);
 
   DriveAlong drive_;
   Analyse analyse_;

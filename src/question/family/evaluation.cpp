@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <optional>
+#include <string_view>
 #include <utility>
 
 #include "base/on_threads.hpp"
@@ -79,21 +81,14 @@ struct SolvedScale {
   double stiffness;  ///< NaN where unknown
 };
 
-/// Scales a row from the normal form to SI.
-void scale(const CycleColumns& columns, std::size_t row, const SolvedScale& unit) {
-  const auto by = [&](Quantity quantity, double factor) {
-    if (!columns[quantity].empty()) columns[quantity][row] *= factor;
-  };
-  for (const Quantity time : {Quantity::period, Quantity::engaged_time, Quantity::separated_time}) {
-    by(time, 1.0 / unit.natural_frequency);
+/// What a number of such a unit is multiplied by, from the normal form to SI; nullptr: nothing.
+double (*factor_of(std::string_view unit))(const SolvedScale& scale) {
+  if (unit == "s") return [](const SolvedScale& scale) { return 1.0 / scale.natural_frequency; };
+  if (unit == "Hz" || unit == "rad/s") {
+    return [](const SolvedScale& scale) { return scale.natural_frequency; };
   }
-  for (const Quantity rate : {Quantity::frequency, Quantity::impact_speed}) {
-    by(rate, unit.natural_frequency);
-  }
-  for (const Quantity loss :
-       {Quantity::motor_friction_loss, Quantity::load_friction_loss, Quantity::impact_loss}) {
-    by(loss, unit.stiffness);
-  }
+  if (unit == "J" || unit == "N m") return [](const SolvedScale& scale) { return scale.stiffness; };
+  return nullptr;
 }
 
 /// Fills in what Answer::value() gives for drives that come to rest, and for the verdict.
@@ -259,7 +254,7 @@ class FamilyPart {
       };
       const std::size_t count = std::min(longest_run_, searched_.size() - first);
       search_run(std::span<const SoundDrive>(searched_).subspan(first, count), asked_.wanted, take,
-                 progress);
+                 progress, asked_.scope);
       if (progress.is_stopped()) return;
     }
   }
@@ -293,12 +288,16 @@ class FamilyPart {
 
   /// Scales all rows from the normal form to SI.
   void bring_to_si() {
-    for (const auto& [row, unit] : scales_) scale(columns_, row, unit);
-    if (!family_.normal_form()) return;
-    const SolvedScale shared(*family_.normal_form());
-    if (shared.natural_frequency == 1.0 && shared.stiffness == 1.0) return;
-    for (std::size_t row = 0; row < servos_.size(); ++row) {
-      scale(columns_, row, shared);
+    std::optional<SolvedScale> shared;
+    if (family_.normal_form()) shared.emplace(*family_.normal_form());
+    for (const Quantity quantity : solved_quantities) {
+      const std::span<double> column = columns_[quantity];
+      const auto factor = factor_of(info_of(quantity).unit);
+      if (column.empty() || factor == nullptr) continue;
+      for (const auto& [row, scale] : scales_) column[row] *= factor(scale);
+      const double for_all = shared ? factor(*shared) : 1.0;
+      if (for_all == 1.0) continue;
+      for (double& number : column) number *= for_all;
     }
   }
 

@@ -61,6 +61,7 @@ struct AskedOfRows {
   TakeRow take{};
   /// Of drives that are searched. Figures of columns are computed in any case.
   Wanted wanted{.proofs = false, .borders = false};
+  SearchScope scope{};  ///< of drives that are searched, less the drive to be followed
   /// Verdicts in closed form that are not proved become undecided.
   bool proved = false;
   /// Every drive is analysed by itself. Else answers in closed form that are taken have the

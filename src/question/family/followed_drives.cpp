@@ -5,7 +5,8 @@
 namespace gearlash {
 namespace {
 
-/// Whether two drives have motions of one kind, as far as a fresh search is sure to see them.
+/// Whether two drives have motions of one kind, as far as a fresh search is sure to see them. Of
+/// irregular motion it is not sure whether it repeats, which alone parts two verdicts.
 bool are_alike(const Answer& one, const Answer& other) {
   const auto stable = [](const Answer& answer) {
     return std::count_if(answer.cycles.begin(), answer.cycles.end(),
@@ -16,16 +17,19 @@ bool are_alike(const Answer& one, const Answer& other) {
         answer.irregular.begin(), answer.irregular.end(),
         [&](const IrregularMotion& motion) { return motion.is_motor_alone == alone; });
   };
-  return one.verdict == other.verdict && stable(one) == stable(other) &&
+  const auto kind = [](Verdict verdict) {
+    return verdict == Verdict::hunts_irregularly ? Verdict::hunts : verdict;
+  };
+  return kind(one.verdict) == kind(other.verdict) && stable(one) == stable(other) &&
          moves_irregularly(one, true) == moves_irregularly(other, true) &&
          moves_irregularly(one, false) == moves_irregularly(other, false);
 }
 
 class Run {
  public:
-  Run(std::span<const SoundDrive> drives, const Wanted& wanted, const AnswerSink& take,
-      Progress& progress)
-      : drives_(drives), wanted_(wanted), take_(take), progress_(progress) {}
+  Run(std::span<const SoundDrive> drives, const Wanted& wanted, const SearchScope& scope,
+      const AnswerSink& take, Progress& progress)
+      : drives_(drives), wanted_(wanted), scope_(scope), take_(take), progress_(progress) {}
 
   void answer_all() {
     if (drives_.empty()) return;
@@ -38,7 +42,7 @@ class Run {
  private:
   Analysis afresh(std::size_t index) {
     if (is_stopped_) return {};
-    return taken(index, analyse_in_full(drives_[index], wanted_, progress_));
+    return taken(index, analyse_in_full(drives_[index], wanted_, progress_, scope_));
   }
 
   Analysis taken(std::size_t index, Analysis analysis) {
@@ -61,13 +65,16 @@ class Run {
   }
 
   void follow(std::size_t low, Analysis near, std::size_t high) {
+    SearchScope scope = scope_;
+    scope.near = &near;
     for (std::size_t index = low + 1; index < high && !is_stopped_; ++index) {
-      near = taken(index, analyse_near(drives_[index], near, wanted_, progress_));
+      near = taken(index, analyse_in_full(drives_[index], wanted_, progress_, scope));
     }
   }
 
   std::span<const SoundDrive> drives_;
   const Wanted& wanted_;
+  SearchScope scope_;
   const AnswerSink& take_;
   Progress& progress_;
   bool is_stopped_ = false;
@@ -76,8 +83,8 @@ class Run {
 }  // namespace
 
 void search_run(std::span<const SoundDrive> drives, const Wanted& wanted, const AnswerSink& take,
-                Progress& progress) {
-  Run(drives, wanted, take, progress).answer_all();
+                Progress& progress, const SearchScope& scope) {
+  Run(drives, wanted, scope, take, progress).answer_all();
 }
 
 }  // namespace gearlash

@@ -37,6 +37,24 @@ std::vector<std::size_t> chain_of(std::span<const double> values, std::size_t co
   return order;
 }
 
+/// Once a start is undecided others are not watched for long. A slow one may lead to rest, which no
+/// more matters where another hunts: a few of them are enough then.
+SearchScope hurried(bool rest_matters) {
+  constexpr std::size_t few = 3;
+  const auto hunts = [rest_matters](const drive::AttractorSearch& search) {
+    return !rest_matters && (search.count(drive::MotionEnd::cycle) > 0 ||
+                             search.count(drive::MotionEnd::irregular) > 0);
+  };
+  return {.is_enough =
+              [hunts](const drive::AttractorSearch& search) {
+                return hunts(search) && search.count(drive::MotionEnd::undecided) >= few;
+              },
+          .may_hurry =
+              [hunts](const drive::AttractorSearch& search) {
+                return hunts(search) || search.count(drive::MotionEnd::undecided) > 0;
+              }};
+}
+
 }  // namespace
 
 SampleValues::SampleValues(const TolerancedDrive& drive, const SamplePlan& plan, std::size_t sets)
@@ -73,13 +91,14 @@ std::vector<double> SampleValues::of(std::size_t first, std::size_t count) const
 bool SampleResult::hunts() const { return gearlash::hunts(verdict); }
 
 SampleAnswers::SampleAnswers(const TolerancedDrive& drive, const Target& target, Quantity amplitude,
-                             const Workers& workers)
+                             const Workers& workers, bool hurries)
     : target_(target),
       amplitude_(amplitude),
       workers_(workers),
       family_(family_of(drive)),
       one_by_one_(family_.engines().search || !is_of_boxes(target) ||
-                  amplitude != Quantity::amplitude) {
+                  amplitude != Quantity::amplitude),
+      hurries_(hurries) {
   for (const Axis& axis : axes_of(drive)) widths_.push_back(axis.values[1] - axis.values[0]);
 }
 
@@ -120,6 +139,7 @@ bool SampleAnswers::fill(const FamilyRows& rows, std::span<SampleResult> results
                     .wanted = wanted_for(target_, family_.base()),
                     .one_by_one = true};
   asked.wanted.borders = true;  // of each sample the amplitude counts
+  if (hurries_) asked.scope = hurried(asks_for_rest(target_));
   const FamilyRows in_runs{.count = rows.count, .fill = fill_run, .line = block_of_samples};
   return !evaluate(family_, in_runs, asked, progress, workers_).stopped;
 }

@@ -55,10 +55,10 @@ inline constexpr std::size_t block_of_samples = 64;
 /// What drives of a series do.
 class SampleAnswers {
  public:
-  /// `amplitude`: of the load (Quantity::amplitude) or of the motor. The drive and the target must
-  /// outlive it.
+  /// `amplitude`: of the load (Quantity::amplitude) or of the motor. `hurries`: of a searched drive
+  /// that hunts, slow starts may be left undecided. The drive and the target must outlive it.
   SampleAnswers(const TolerancedDrive& drive, const Target& target, Quantity amplitude,
-                const Workers& workers);
+                const Workers& workers, bool hurries = true);
 
   /// Whether each drive is analysed by itself. Those of a run are then followed from one to the
   /// next, where its ends, which are analysed afresh, are alike (search_run()).
@@ -77,6 +77,7 @@ class SampleAnswers {
   Family family_;
   std::vector<double> widths_;  ///< of the ranges of the parameters
   bool one_by_one_;
+  bool hurries_;
 };
 
 }  // namespace gearlash::detail

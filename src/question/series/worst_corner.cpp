@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "base/on_threads.hpp"
@@ -87,7 +88,7 @@ class Climb {
   Climb(const TolerancedDrive& drive, const WorstSearch& search, const Workers& workers,
         Progress& progress)
       : search_(search),
-        answers_(drive, no_target_, search.amplitude, workers),
+        answers_(drive, no_target_, search.amplitude, workers, false),
         progress_(progress, answers_),
         shared_(progress_, search.samples + most_corners) {
     for (const ParameterTolerance& varied : drive.varied) {
@@ -151,7 +152,22 @@ class Climb {
     return all;
   }
 
+  /// Of searched drives each is answered once: climbs come by corners that are known.
   std::vector<Badness> evaluate(const std::vector<Values>& all) {
+    if (!answers_.are_one_by_one()) return answered(all);
+    std::vector<Values> open;
+    for (const Values& one : all) {
+      if (known_.try_emplace(one).second) open.push_back(one);
+    }
+    const std::vector<Badness> found = answered(open);
+    for (std::size_t i = 0; i < open.size(); ++i) known_[open[i]] = found[i];
+    std::vector<Badness> badness;
+    for (const Values& one : all) badness.push_back(known_.at(one));
+    return badness;
+  }
+
+  std::vector<Badness> answered(const std::vector<Values>& all) {
+    if (all.empty()) return {};
     Values values;
     for (const Values& one : all) values.insert(values.end(), one.begin(), one.end());
     detail::SampleResults results(all.size());
@@ -311,6 +327,7 @@ class Climb {
   ClimbProgress progress_;
   SharedProgress shared_;
   std::vector<Coordinate> coordinates_;
+  std::map<Values, Badness> known_;
 };
 
 PlaceInRange place_of(double value, const Bounds& range) {
