@@ -1,36 +1,32 @@
 // The pictures in their cards, with buttons that save them.
 import { csv, save, savePng, svgFile } from './downloads';
-import { draw, moveMark, type Plot, type Theme } from './plot';
+import { draw, moveMark, type Place, type Plot, type Theme } from './plot';
 
 /** What a card shows, made anew for each theme. */
-export interface Card {
-  plot: (theme: Theme) => Plot;
-  /** Its data; default: the curves of its picture. */
-  data?: () => string;
-}
+export type Picture = (theme: Theme) => Plot;
 
-/** The curves of a picture as a table: number of the curve, x, y. */
+/** The curves of a picture as a table: panel and name of the curve, x, y. */
 function curvesOf(plot: Plot): string {
-  const numbers: number[] = [];
-  const x: number[] = [];
-  const y: number[] = [];
-  let curve = 0;
-  for (const layer of plot.layers) {
-    if (layer.kind !== 'line' && layer.kind !== 'marks') continue;
-    ++curve;
-    for (let i = 0; i + 1 < layer.points.length; i += 2) {
-      if (!Number.isFinite(layer.points[i]!)) continue;
-      numbers.push(curve);
-      x.push(layer.points[i]!);
-      y.push(layer.points[i + 1]!);
+  const [curves, x, y]: [string[], number[], number[]] = [[], [], []];
+  const quoted = (text: string): string => `"${text.replaceAll('"', "'")}"`;
+  for (const panel of plot.columns.flat()) {
+    for (const [i, { kind, name, points }] of panel.layers.entries()) {
+      if (kind === 'area') continue;
+      for (let at = 0; at + 1 < points.length; at += 2) {
+        if (!Number.isFinite(points[at]!)) continue;
+        curves.push(quoted(`${panel.y.name ?? ''}: ${name ?? i + 1}`));
+        x.push(points[at]!);
+        y.push(points[at + 1]!);
+      }
     }
   }
-  const named = (label: string): string => `"${label.replaceAll('"', "'")}"`;
-  return csv(['curve', named(plot.x.label), named(plot.y.label)], [numbers, x, y]);
+  return csv(['curve', quoted(plot.columns[0]![0]!.x.name ?? ''), 'value'], [curves, x, y]);
 }
 
 export class Cards {
-  private readonly cards = new Map<string, Card>();
+  private readonly cards = new Map<string, Picture>();
+  /** The plots on the page, whose marks can be moved. */
+  private readonly shown = new Map<string, Plot>();
   private readonly widths = new Map<string, number>();
 
   constructor(
@@ -41,30 +37,29 @@ export class Cards {
     addEventListener('resize', () => this.widths.clear());
   }
 
-  /** Shows the card, drawn in `theme`. */
-  put(name: string, card: Card, theme: Theme): void {
-    this.keep(name, card);
+  /** Shows the picture, drawn in `theme`. */
+  put(name: string, picture: Picture, theme: Theme): void {
+    this.cards.set(name, picture);
+    this.addButtons(name);
     const place = this.place(name);
     place.classList.remove('stale');
-    const isOnPaper = place.classList.contains('for-print');
-    place.innerHTML = draw(card.plot(isOnPaper ? this.light : theme), isOnPaper ? this.light : theme, { width: isOnPaper ? 640 : this.widthOf(name), isMarkApart: true });
+    const plot = picture(theme);
+    this.shown.set(name, plot);
+    place.innerHTML = draw(plot, theme, { width: this.widthOf(name), isMarkApart: true });
   }
 
-  /** The same for a card that draws itself. */
-  keep(name: string, card: Card): void {
-    this.cards.set(name, card);
-    this.addButtons(name);
-  }
-
-  /** Moves the mark of the card, which was drawn before. `card` draws it with the mark at its new place. */
-  move(name: string, card: Card, plot: Plot, to: [number, number]): void {
-    this.cards.set(name, card);
+  /** Moves the mark of a picture; `picture` draws it with the mark at its new place. */
+  move(name: string, to: Place, picture?: Picture): void {
+    const plot = this.shown.get(name);
+    if (!plot) return;
+    if (picture) this.cards.set(name, picture);
     moveMark(this.place(name), plot, to);
   }
 
   /** Words in place of the picture. */
   blank(name: string, why: string): void {
     this.cards.delete(name);
+    this.shown.delete(name);
     const place = this.place(name);
     place.classList.remove('stale');
     place.textContent = why;
@@ -76,11 +71,10 @@ export class Cards {
     this.place(name).classList.add('stale');
   }
 
-  /** Pictures on the screen that draw themselves have one for paper beside them. */
   redraw(theme: Theme): void {
-    for (const [name, card] of this.cards) {
+    for (const [name, picture] of this.cards) {
       const isStale = this.place(name).classList.contains('stale');
-      this.put(name, card, theme);
+      this.put(name, picture, theme);
       if (isStale) this.fade(name);
     }
   }
@@ -103,17 +97,17 @@ export class Cards {
     if (article.querySelector('.buttons')) return;
     const line = document.createElement('p');
     line.className = 'buttons';
-    const add = (kind: string, does: (card: Card, file: string) => void): void => {
+    const add = (kind: string, does: (plot: Plot, file: string) => void): void => {
       const button = document.createElement('button');
       button.type = 'button';
       button.textContent = kind;
       button.setAttribute('aria-label', `${article.querySelector('h2')?.textContent || 'Figure'} as ${kind}`);
-      button.onclick = () => does(this.cards.get(name)!, `${this.fileName()}-${name}.${kind.toLowerCase()}`);
+      button.onclick = () => does(this.cards.get(name)!(this.light), `${this.fileName()}-${name}.${kind.toLowerCase()}`);
       line.append(button);
     };
-    add('SVG', (card, file) => save(file, svgFile(card.plot(this.light)), 'image/svg+xml'));
-    add('PNG', (card, file) => void savePng(file, card.plot(this.light)).catch(this.tell));
-    add('CSV', (card, file) => save(file, card.data ? card.data() : curvesOf(card.plot(this.light)), 'text/csv'));
+    add('SVG', (plot, file) => save(file, svgFile(plot), 'image/svg+xml'));
+    add('PNG', (plot, file) => void savePng(file, plot).catch(this.tell));
+    add('CSV', (plot, file) => save(file, curvesOf(plot), 'text/csv'));
     article.append(line);
   }
 }

@@ -31,7 +31,7 @@ export async function savePng(name: string, plot: Plot): Promise<void> {
 }
 
 /** A table with a header, as spreadsheets, pandas and gnuplot read it. */
-export function csv(header: string[], columns: ArrayLike<number>[]): string {
+export function csv(header: string[], columns: ArrayLike<number | string>[]): string {
   const lines = [header.join(',')];
   const rows = columns[0]?.length ?? 0;
   for (let i = 0; i < rows; ++i) lines.push(columns.map((column) => String(column[i])).join(','));

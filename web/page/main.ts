@@ -1,5 +1,4 @@
 // The explorer: holds the state, asks the core, and shows the answers.
-import 'uplot/dist/uPlot.min.css';
 import './style.css';
 
 import { Cards } from './cards';
@@ -98,11 +97,11 @@ class Explorer {
       const name = this.theme === light ? 'dark' : 'light';
       this.useTheme(name);
       keepTheme(name);
-      this.redraw();
+      this.cards.redraw(this.theme);
     };
     byId('print').onclick = () => window.print();
     addEventListener('beforeprint', () => this.cards.redraw(light));
-    addEventListener('afterprint', () => this.redraw());
+    addEventListener('afterprint', () => this.cards.redraw(this.theme));
     byId('stop').onclick = () => this.stop();
     byId('save-toml').onclick = () => void saveDrive(this.core.answers, this.state.drive).catch((error) => this.refuse(error));
     byId('copy-link').onclick = () => void this.keepAddress().then(copyLink);
@@ -344,11 +343,6 @@ class Explorer {
     byId('message').textContent = sentence;
     const isLoading = byId('headline').textContent?.startsWith('Loading');
     if (sentence && isLoading) byId('headline').textContent = 'No answer yet';
-  }
-
-  private redraw(): void {
-    this.cards.redraw(this.theme);
-    this.motions.follow();
   }
 
   // ---- views ------------------------------------------------------------------------------------

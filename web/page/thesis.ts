@@ -29,7 +29,7 @@ export class Thesis {
       const { reply, numbers } = await this.lane.ask<PlotReply>({ ask: 'thesis', figure });
       byId('figure-title').textContent = reply.title;
       byId('figure-words').textContent = reply.subtitles.join('; ');
-      this.cards.put('figure', { plot: (theme) => plotOf(reply, numbers, theme) }, this.theme());
+      this.cards.put('figure', (theme) => plotOf(reply, numbers, theme), this.theme());
     } catch (error) {
       if (!(error instanceof Overtaken)) this.cards.blank('figure', wordsOf(error));
     }
