@@ -72,8 +72,8 @@ struct Drawing {
 Drawing drawing_of(const BifurcationDiagram& diagram, const Grid& grid, Quantity quantity,
                    const AngleUnit& angle) {
   Drawing drawing{.quantity = quantity,
-                  .per_value = drawn_unit(quantity, grid, angle),
-                  .per_parameter = drawn_unit(grid.axes.front(), grid.drive, angle),
+                  .per_value = drawn_unit(quantity, grid, angle).size,
+                  .per_parameter = drawn_unit(grid.axes.front(), grid.drive, angle).size,
                   .y = plot_axis(quantity, grid, angle)};
   Extent values;
   const auto include = [&](double value) {

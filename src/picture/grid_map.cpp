@@ -25,7 +25,7 @@ const Layer ceiling_style{.colour = "#7b3294", .width = 1.0, .dashes = "2,3"};
 
 /// Round in the drawn unit.
 std::vector<double> levels_of(const GridTable& table, Quantity quantity) {
-  const double unit = drawn_unit(quantity, table.grid, table.angle);
+  const double unit = drawn_unit(quantity, table.grid, table.angle).size;
   std::vector<double> motions(table.table.rows());
   for (std::size_t row = 0; row < motions.size(); ++row) {
     motions[row] = motion_value(table.table, quantity, row) / unit;
@@ -38,7 +38,7 @@ std::vector<double> levels_of(const GridTable& table, Quantity quantity) {
 
 /// With their levels in the drawn unit.
 std::vector<Contour> drawn_contours(const GridTable& table, Quantity quantity) {
-  const double unit = drawn_unit(quantity, table.grid, table.angle);
+  const double unit = drawn_unit(quantity, table.grid, table.angle).size;
   const std::vector<double> levels = levels_of(table, quantity);
   std::vector<double> in_table;
   for (const double level : levels) in_table.push_back(level * unit);
@@ -202,8 +202,8 @@ Plot contour_plot(const GridTable& table, Quantity quantity) {
                            : "hunting ends",
            borders, boundary_style, paper, panel);
   if (const auto mark = mark_of(table)) {
-    const double x_unit = drawn_unit(grid.axes[1], grid.drive, table.angle);
-    const double y_unit = drawn_unit(grid.axes[0], grid.drive, table.angle);
+    const double x_unit = drawn_unit(grid.axes[1], grid.drive, table.angle).size;
+    const double y_unit = drawn_unit(grid.axes[0], grid.drive, table.angle).size;
     panel.layers.push_back({.kind = LayerKind::marks,
                             .name = "now",
                             .size = 1.0,
@@ -230,7 +230,7 @@ Plot cell_plot(const GridTable& table, Quantity quantity) {
   for (const double value : y.values) {
     cells.rows.push_back(short_text(y, grid.drive, value, table.angle));
   }
-  const double unit = drawn_unit(quantity, grid, table.angle);
+  const double unit = drawn_unit(quantity, grid, table.angle).size;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < y.values.size(); ++i) {
     std::vector<double>& row = cells.values.emplace_back();

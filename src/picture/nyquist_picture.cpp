@@ -62,35 +62,40 @@ Complex inverse_gain(const Nonlinearity& nonlinearity, double amplitude) {
   return -1.0 / describing_gain(nonlinearity, amplitude);
 }
 
-/// The unit of amplitude marks and the amplitude at which the curve −1/N begins.
-struct AmplitudeScale {
-  double unit;
-  const char* name;
-  double least;      ///< below it N is undefined, 0 or constant
-  bool is_relative;  ///< marks are typical multiples of the unit, else round numbers
+/// The curve −1/N of a nonlinearity: its marks, and where it begins.
+struct InverseGain {
+  double unit;       ///< of marked amplitudes
+  const char* name;  ///< of the unit; empty: marks are round numbers, else typical multiples
+  const char* meaning;
+  double least;                             ///< below it N is undefined, 0 or constant
+  std::optional<double> linear_end = -1.0;  ///< its limit; nothing for a relay
 };
 
-AmplitudeScale scale_of(const Nonlinearity& nonlinearity) {
-  return std::visit(Overloaded{[](const FrictionControlledBacklash& play) -> AmplitudeScale {
-                                 return {0.5 * play.gap, "h", 0.5 * play.gap, true};
-                               },
-                               [](const InertiaControlledBacklash& play) -> AmplitudeScale {
-                                 return {0.5 * play.gap, "h", play.gap / std::numbers::pi, true};
-                               },
-                               [](const RelayWithHysteresis& relay) -> AmplitudeScale {
-                                 return {relay.half_width, "δ", relay.half_width, true};
-                               },
-                               [](const Saturation& saturation) -> AmplitudeScale {
-                                 const double linear = saturation.limit / saturation.slope;
-                                 return {linear, "T_max", linear, true};
-                               },
-                               [](const CoulombFriction&) -> AmplitudeScale {
-                                 return {1.0, "", 0.0, false};
-                               },
-                               [](const DeadZone& zone) -> AmplitudeScale {
-                                 return {zone.half_width, "h", zone.half_width, true};
-                               }},
-                    nonlinearity);
+InverseGain curve_of(const Nonlinearity& nonlinearity, bool is_normalized) {
+  constexpr const char* half_gap = ", A by half the gap, h";
+  constexpr const char* threshold = ", A by the threshold";
+  return std::visit(
+      Overloaded{
+          [](const FrictionControlledBacklash& play) -> InverseGain {
+            return {0.5 * play.gap, "h", half_gap, 0.5 * play.gap};
+          },
+          [](const InertiaControlledBacklash& play) -> InverseGain {
+            return {0.5 * play.gap, "h", half_gap, play.gap / std::numbers::pi};
+          },
+          [](const RelayWithHysteresis& relay) -> InverseGain {
+            return {relay.half_width, "δ", threshold, relay.half_width, std::nullopt};
+          },
+          [](const Saturation& saturation) -> InverseGain {
+            const double linear = saturation.limit / saturation.slope;
+            return {linear, "T_max", ", A by the limit T_max", linear, -1.0 / saturation.slope};
+          },
+          [&](const CoulombFriction&) -> InverseGain {
+            return {1.0, "", is_normalized ? ", A in rad ω_n" : ", A in rad/s", 0.0, std::nullopt};
+          },
+          [](const DeadZone& zone) -> InverseGain {
+            return {zone.half_width, "h", threshold, zone.half_width, -1.0 / zone.slope};
+          }},
+      nonlinearity);
 }
 
 // ---- key points ---------------------------------------------------------------------------------
@@ -155,19 +160,6 @@ std::vector<KeyPoint> key_points(const NyquistPicture& picture) {
   return points;
 }
 
-/// The linear limit of −1/N; nothing for a relay.
-std::optional<Complex> linear_end(const Nonlinearity& nonlinearity) {
-  if (std::holds_alternative<Saturation>(nonlinearity)) {
-    return -1.0 / std::get<Saturation>(nonlinearity).slope;
-  }
-  if (std::holds_alternative<DeadZone>(nonlinearity)) {
-    return -1.0 / std::get<DeadZone>(nonlinearity).slope;
-  }
-  const bool is_gap = std::holds_alternative<FrictionControlledBacklash>(nonlinearity) ||
-                      std::holds_alternative<InertiaControlledBacklash>(nonlinearity);
-  return is_gap ? std::optional<Complex>(-1.0) : std::nullopt;
-}
-
 /// The largest |L| at the frequencies of poles and zeros: the extent of a bounded loop.
 double extent_of(const TransferFunction& loop) {
   double extent = 0.0;
@@ -185,7 +177,7 @@ double extent_of(const TransferFunction& loop) {
 Panel critical_panel(const NyquistPicture& picture, const std::vector<KeyPoint>& points) {
   std::vector<Complex> shown = {0.0};
   for (const DescribingAnalysis& analysis : picture.analyses) {
-    if (const auto end = linear_end(analysis.nonlinearity)) {
+    if (const auto end = curve_of(analysis.nonlinearity, picture.is_normalized).linear_end) {
       shown.push_back(*end);
       shown.push_back(1.6 * *end);  // shows some of the curve towards it
     }
@@ -246,17 +238,17 @@ std::vector<Candidate> frequencies(const NyquistPicture& picture) {
 }
 
 /// The most telling first, of −1/N.
-std::vector<Candidate> amplitudes(const DescribingAnalysis& analysis) {
-  const AmplitudeScale scale = scale_of(analysis.nonlinearity);
+std::vector<Candidate> amplitudes(const Nonlinearity& nonlinearity, const InverseGain& curve) {
+  const bool is_relative = *curve.name != '\0';
   std::vector<double> numbers = {2.0, 1.5, 1.2, 5.0, 1.1, 3.0, 1.0, 1.05, 10.0, 1.02, 1.01, 0.8};
-  if (!scale.is_relative) numbers = round_numbers();
+  if (!is_relative) numbers = round_numbers();
   std::vector<Candidate> candidates;
   for (const double number : numbers) {
-    const double amplitude = number * scale.unit;
-    if (amplitude <= scale.least) continue;
-    candidates.push_back({inverse_gain(analysis.nonlinearity, amplitude),
-                          significant(number, label_digits) +
-                              (scale.is_relative ? std::string(" ") + scale.name : "")});
+    const double amplitude = number * curve.unit;
+    if (amplitude <= curve.least) continue;
+    candidates.push_back(
+        {inverse_gain(nonlinearity, amplitude),
+         significant(number, label_digits) + (is_relative ? " " : "") + curve.name});
   }
   return candidates;
 }
@@ -294,29 +286,14 @@ void trace(const std::function<Complex(double parameter)>& curve, const Bounds& 
 }
 
 /// −1/N, from the amplitude on at which it begins.
-void trace_inverse_gain(const Nonlinearity& nonlinearity, const Paper& paper, DrawnCurve& drawn) {
-  const double least = scale_of(nonlinearity).least;
+void trace_inverse_gain(const Nonlinearity& nonlinearity, double least, const Paper& paper,
+                        DrawnCurve& drawn) {
   // Without a least amplitude, −1/N is proportional to the amplitude.
   const double height =
       paper.on_map(PaperPoint(0.0, paper.height())).y - paper.on_map(PaperPoint()).y;
   const double size = least > 0.0 ? least : height / std::abs(inverse_gain(nonlinearity, 1.0));
   trace([&](double excess) { return inverse_gain(nonlinearity, least + excess); },
         {1e-8 * size, 1e6 * size}, paper, drawn);
-}
-
-/// The unit of the amplitude marks.
-std::string meaning_of(const DescribingAnalysis& analysis, bool is_normalized) {
-  switch (analysis.part) {
-    case DescribedPart::torque_limit:
-      return ", A by the limit T_max";
-    case DescribedPart::coulomb_friction:
-      return is_normalized ? ", A in rad ω_n" : ", A in rad/s";
-    case DescribedPart::dead_band:
-    case DescribedPart::relay:
-      return ", A by the threshold";
-    default:
-      return ", A by half the gap, h";
-  }
 }
 
 std::vector<DrawnCurve> traced_curves(const NyquistPicture& picture, const Paper& paper) {
@@ -328,11 +305,11 @@ std::vector<DrawnCurve> traced_curves(const NyquistPicture& picture, const Paper
   trace([&](double frequency) { return loop_at(loop, frequency); }, natural_frequency_range(loop),
         paper, curves.front());
   for (const DescribingAnalysis& analysis : picture.analyses) {
+    const InverseGain inverse = curve_of(analysis.nonlinearity, picture.is_normalized);
     DrawnCurve curve{inverse_styles[(curves.size() - 1) % inverse_styles.size()],
-                     amplitudes(analysis)};
-    curve.layer.name =
-        "−1/N(A)" + distinction(picture, analysis) + meaning_of(analysis, picture.is_normalized);
-    trace_inverse_gain(analysis.nonlinearity, paper, curve);
+                     amplitudes(analysis.nonlinearity, inverse)};
+    curve.layer.name = "−1/N(A)" + distinction(picture, analysis) + inverse.meaning;
+    trace_inverse_gain(analysis.nonlinearity, inverse.least, paper, curve);
     curves.push_back(std::move(curve));
   }
   return curves;

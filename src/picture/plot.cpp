@@ -146,8 +146,8 @@ MapCurve rectangle(const Bounds& x, const Bounds& y) {
 }
 
 Layer zero_lines(const Panel& panel, Layer style) {
-  style.points = joined({{{*panel.x.low, 0.0}, {*panel.x.high, 0.0}},
-                         {{0.0, *panel.y.low}, {0.0, *panel.y.high}}});
+  style.points = joined(
+      {{{*panel.x.low, 0.0}, {*panel.x.high, 0.0}}, {{0.0, *panel.y.low}, {0.0, *panel.y.high}}});
   return style;
 }
 

@@ -156,6 +156,19 @@ TEST_F(WebCore, CurvesAreColumnsOfOneLength) {
   }
 }
 
+TEST_F(WebCore, EventsOfEitherEngineHaveTheirWords) {
+  for (const char* toml : {servo, joint}) {
+    const Json reply = ask({{"ask", "answer"}, {"drive", drive(toml)}});
+    for (const Json& motion : reply["motions"]) {
+      ASSERT_GT(motion["events"].size(), 1U);
+      for (const Json& event : motion["events"]) {
+        const std::string what = event["what"];
+        EXPECT_TRUE(what == "faces part" || what.starts_with("impact ")) << what;
+      }
+    }
+  }
+}
+
 TEST_F(WebCore, AMapHasItsBorderAndItsUnits) {
   const Json reply = ask({{"ask", "map"},
                           {"drive", drive(servo)},

@@ -18,7 +18,7 @@ namespace gearlash::web {
 namespace {
 
 MapAxis shown(const Axis& axis, const WrittenDrive& written) {
-  return {axis.path, drawn_unit(axis, written.drive, written.angle)};
+  return {axis.path, drawn_unit(axis, written.drive, written.angle).size};
 }
 
 Axis read(const char* field, const Json& request, const Drive& drive) {

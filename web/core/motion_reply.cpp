@@ -23,7 +23,7 @@ ShownMotion motion_reply(const std::string& name, const MotionPicture& picture) 
     return shown;
   }
   for (const MotionEvent& event : motion.events()) {
-    shown.events.push_back({event.time, event.what, event.mode_after});
+    shown.events.push_back({event.time, std::string(event.what), std::string(event.mode_after)});
   }
   return shown;
 }

@@ -78,9 +78,9 @@ const char* name_of(Means means);
 
 /// A moment at which the mode changes.
 struct ShownEvent {
-  double time = 0.0;              ///< in the motion's unit
-  std::string_view what{};        ///< happened
-  std::string_view mode_after{};  ///< "apart"; empty in contact
+  double time = 0.0;         ///< in the motion's unit
+  std::string what{};        ///< happened
+  std::string mode_after{};  ///< "apart"; empty in contact
 };
 
 /// A motion over time. Positions are in the answer's unit, from the reference.

@@ -1,9 +1,7 @@
 // The pictures in their cards, with buttons that save them.
 import { csv, save, savePng, svgFile } from './downloads';
-import { draw, moveMark, type Place, type Plot, type Theme } from './plot';
-
-/** What a card shows, made anew for each theme. */
-export type Picture = (theme: Theme) => Plot;
+import { addButton } from './elements';
+import { draw, moveMark, type Place, type Plot } from './plot';
 
 /** The curves of a picture as a table: panel and name of the curve, x, y. */
 function curvesOf(plot: Plot): string {
@@ -24,42 +22,36 @@ function curvesOf(plot: Plot): string {
 }
 
 export class Cards {
-  private readonly cards = new Map<string, Picture>();
-  /** The plots on the page, whose marks can be moved. */
-  private readonly shown = new Map<string, Plot>();
+  private readonly plots = new Map<string, Plot>();
   private readonly widths = new Map<string, number>();
 
   constructor(
-    private readonly light: Theme,
     private readonly fileName: () => string,
     private readonly tell: (error: unknown) => void,
   ) {
     addEventListener('resize', () => this.widths.clear());
   }
 
-  /** Shows the picture, drawn in `theme`. */
-  put(name: string, picture: Picture, theme: Theme): void {
-    this.cards.set(name, picture);
+  /** Shows the picture. */
+  put(name: string, plot: Plot): void {
+    this.plots.set(name, plot);
     this.addButtons(name);
     const place = this.place(name);
     place.classList.remove('stale');
-    const plot = picture(theme);
-    this.shown.set(name, plot);
-    place.innerHTML = draw(plot, theme, { width: this.widthOf(name), isMarkApart: true });
+    place.innerHTML = draw(plot, { width: this.widthOf(name), isMarkApart: true });
   }
 
-  /** Moves the mark of a picture; `picture` draws it with the mark at its new place. */
-  move(name: string, to: Place, picture?: Picture): void {
-    const plot = this.shown.get(name);
+  /** Moves the mark of a picture. */
+  move(name: string, to: Place): void {
+    const plot = this.plots.get(name);
     if (!plot) return;
-    if (picture) this.cards.set(name, picture);
+    plot.moving = to;
     moveMark(this.place(name), plot, to);
   }
 
   /** Words in place of the picture. */
   blank(name: string, why: string): void {
-    this.cards.delete(name);
-    this.shown.delete(name);
+    this.plots.delete(name);
     const place = this.place(name);
     place.classList.remove('stale');
     place.textContent = why;
@@ -69,14 +61,6 @@ export class Cards {
   /** Marks the picture as that of another drive, until the next one. */
   fade(name: string): void {
     this.place(name).classList.add('stale');
-  }
-
-  redraw(theme: Theme): void {
-    for (const [name, picture] of this.cards) {
-      const isStale = this.place(name).classList.contains('stale');
-      this.put(name, picture, theme);
-      if (isStale) this.fade(name);
-    }
   }
 
   /** Asking the browser for a width makes it lay out the page. */
@@ -98,12 +82,8 @@ export class Cards {
     const line = document.createElement('p');
     line.className = 'buttons';
     const add = (kind: string, does: (plot: Plot, file: string) => void): void => {
-      const button = document.createElement('button');
-      button.type = 'button';
-      button.textContent = kind;
+      const button = addButton(line, kind, () => does(this.plots.get(name)!, `${this.fileName()}-${name}.${kind.toLowerCase()}`));
       button.setAttribute('aria-label', `${article.querySelector('h2')?.textContent || 'Figure'} as ${kind}`);
-      button.onclick = () => does(this.cards.get(name)!(this.light), `${this.fileName()}-${name}.${kind.toLowerCase()}`);
-      line.append(button);
     };
     add('SVG', (plot, file) => save(file, svgFile(plot), 'image/svg+xml'));
     add('PNG', (plot, file) => void savePng(file, plot).catch(this.tell));

@@ -1,24 +1,20 @@
 // The motions of an answer: in the phase plane, over time, and as two gears.
 import type { Cards } from './cards';
+import { byId } from './elements';
 import { GearView, type Moving } from './gears';
 import { plotOf } from './pictures';
-import type { Theme } from './plot';
 import { type AnswerReply, column, type Replied, type ShownMotion } from './replies';
 
-const byId = <T>(id: string): T => document.getElementById(id) as T;
 const none = 'There is no motion to draw: it is proved without following one.';
 
 export class Motions {
   private answer: Replied<AnswerReply> | null = null;
   private readonly list = byId<HTMLSelectElement>('gear-motion');
-  private readonly title = byId<HTMLElement>('time-title');
+  private readonly title = byId('time-title');
   private readonly gears: GearView;
 
-  constructor(
-    private readonly cards: Cards,
-    private readonly theme: () => Theme,
-  ) {
-    const part = <T>(name: string): T => byId<T>(`gear-${name}`);
+  constructor(private readonly cards: Cards) {
+    const part = <T extends Element>(name: string): T => byId<T>(`gear-${name}`);
     this.gears = new GearView(
       { picture: part('picture'), play: part('play'), back: part('back'), on: part('on'), slider: part('time'), words: part('words') },
       (time) => this.cards.move('time', { x: time }),
@@ -30,7 +26,7 @@ export class Motions {
     this.answer = answer;
     const { phase, motions } = answer.reply;
     this.listMotions(motions.map(({ name }) => name));
-    if (phase) this.cards.put('phase', (theme) => plotOf(phase, answer.numbers, theme), this.theme());
+    if (phase) this.cards.put('phase', plotOf(phase, answer.numbers));
     else this.cards.blank('phase', none);
     this.follow();
   }
@@ -41,7 +37,7 @@ export class Motions {
     const { reply, numbers } = this.answer;
     const motion = reply.motions[this.list.selectedIndex];
     this.title.textContent = motion ? `${motion.name}: ${motion.plot.subtitles[0] ?? ''}` : none;
-    if (motion && !motion.reason) this.cards.put('time', (theme) => plotOf(motion.plot, numbers, theme, { x: 0 }), this.theme());
+    if (motion && !motion.reason) this.cards.put('time', plotOf(motion.plot, numbers, { x: 0 }));
     else this.cards.blank('time', motion ? `Not drawn: ${motion.reason}` : '');
     this.gears.take(motion ? this.movingOf(motion, numbers) : null);
   }

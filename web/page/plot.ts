@@ -2,17 +2,8 @@
 import { escapeText } from './numbers';
 import type * as core from './records';
 
-export interface Theme {
-  ink: string;
-  faint: string;
-  grid: string;
-  paper: string;
-  accent: string;
-}
-
-// With enough contrast for text.
-export const light: Theme = { ink: '#1c2430', faint: '#5a6472', grid: '#e3e7ec', paper: '#ffffff', accent: '#7a3f8f' };
-export const dark: Theme = { ink: '#e9edf2', faint: '#a5b0bd', grid: '#343d49', paper: '#171c23', accent: '#d7a3e8' };
+/** On white, as it is printed; a dark page inverts the whole picture. With enough contrast for text. */
+const theme = { ink: '#1c2430', faint: '#5a6472', grid: '#e3e7ec', paper: '#ffffff', accent: '#7a3f8f' };
 
 /** With its points: x and y by turns; NaN interrupts a line. */
 export type Layer = Omit<core.Layer, 'points'> & { points: Float64Array };
@@ -59,12 +50,13 @@ interface Placed {
 /** All panels below each other; a column's last one has the numbers of its x axis. */
 function placed(plot: Plot, width: number): Placed[] {
   const usual = width * (width < 460 ? 0.8 : 0.66) - frame.top - frame.bottom;
+  const least = 90; // px: room for the name of its axis
   let top = frame.top;
   return plot.columns.flatMap((column) =>
     column.map((panel, i) => {
       const isLast = i === column.length - 1;
       if (panel.title) top += frame.title;
-      const place = { panel, top, bottom: Math.round(top + (usual * panel.height) / 480), isLast };
+      const place = { panel, top, bottom: Math.round(top + Math.max(least, (usual * panel.height) / 480)), isLast };
       top = place.bottom + (isLast ? frame.bottom : frame.between);
       return { ...place, x: scale(panel.x, frame.left, width - frame.right), y: scale(panel.y, place.bottom, place.top) };
     }),
@@ -133,7 +125,7 @@ function layerText(layer: Layer, x: Scale, y: Scale): string {
   return marks;
 }
 
-function axesText({ panel, top, bottom, x, y, isLast }: Placed, width: number, theme: Theme): string {
+function axesText({ panel, top, bottom, x, y, isLast }: Placed, width: number): string {
   const right = width - frame.right;
   const [middle, centre] = [(frame.left + right) / 2, (top + bottom) / 2];
   let text = panel.title ? `<text x="${middle}" y="${top - 7}" text-anchor="middle" fill="${theme.faint}" font-size="12.5">${escapeText(panel.title)}</text>` : '';
@@ -154,7 +146,7 @@ function axesText({ panel, top, bottom, x, y, isLast }: Placed, width: number, t
 let clips = 0;
 
 /** A panel with all that is in it. Marks at the end of an axis are drawn whole, others outside not at all. */
-function panelText(one: Placed, width: number, theme: Theme): string {
+function panelText(one: Placed, width: number): string {
   const { panel, top, bottom, x, y } = one;
   const clip = `clip${++clips}`;
   const rectangle = (margin: number, style = ''): string =>
@@ -164,38 +156,39 @@ function panelText(one: Placed, width: number, theme: Theme): string {
     .map((word) => `<text x="${at(x(word.at.x))}" y="${at(y(word.at.y) + 4)}" fill="${word.colour}" font-size="12" text-anchor="middle" paint-order="stroke" stroke="${theme.paper}" stroke-width="3">${escapeText(word.text)}</text>`)
     .join('');
   return (
-    `<clipPath id="${clip}">${rectangle(0)}</clipPath><clipPath id="${clip}m">${rectangle(7)}</clipPath>${axesText(one, width, theme)}` +
+    `<clipPath id="${clip}">${rectangle(0)}</clipPath><clipPath id="${clip}m">${rectangle(7)}</clipPath>${axesText(one, width)}` +
     `<g clip-path="url(#${clip})">${text((layer) => layer.kind !== 'marks')}${words}</g>${rectangle(0, `fill="none" stroke="${theme.faint}"`)}` +
     `<g clip-path="url(#${clip}m)">${text((layer) => layer.kind === 'marks')}</g>`
   );
 }
 
-function transformOf({ panel, x, y }: Placed, to: Place): string {
+/** Where a mark stands; one beside the panel is not shown. */
+function placeOf({ panel, x, y }: Placed, to: Place): { transform: string; visibility: string } {
   const up = to.y !== undefined && panel.y.logarithmic ? Math.max(to.y, panel.y.low!) : to.y;
-  return `translate(${at(x(to.x))} ${up === undefined ? 0 : at(y(up))})`;
+  const isBeside = to.x < panel.x.low! || to.x > panel.x.high!;
+  return { transform: `translate(${at(x(to.x))} ${up === undefined ? 0 : at(y(up))})`, visibility: isBeside ? 'hidden' : 'visible' };
 }
 
 /** The mark that moves: a diamond, or a line across each panel. */
-const movingText = (panels: Placed[], place: Place, theme: Theme): string =>
+const movingText = (panels: Placed[], place: Place): string =>
   panels
     .map((one) => {
       const shape = place.y === undefined ? `<path d="M0 ${one.top}V${one.bottom}" stroke="${theme.accent}"/>` : mark('diamond', 0, 0, 6, theme.accent);
-      return `<g class="moving" transform="${transformOf(one, place)}">${shape}</g>`;
+      const { transform, visibility } = placeOf(one, place);
+      return `<g class="moving" transform="${transform}" visibility="${visibility}">${shape}</g>`;
     })
     .join('');
 
 /** Moves the mark of a picture. */
 export function moveMark(picture: Element, plot: Plot, to: Place): void {
   const panels = placed(plot, picture.querySelector('svg')?.viewBox.baseVal.width ?? 0);
-  picture.querySelectorAll<SVGElement>('.moving').forEach((element, i) => {
-    const { low, high } = plot.columns.flat()[i]!.x;
-    element.setAttribute('transform', transformOf(panels[i]!, to));
-    element.style.display = to.x < low! || to.x > high! ? 'none' : '';
+  picture.querySelectorAll('.moving').forEach((element, i) => {
+    for (const [name, value] of Object.entries(placeOf(panels[i]!, to))) element.setAttribute(name, value);
   });
 }
 
 /** The names of layers, each with a sample; the first of each name. */
-function legendOf(plot: Plot, theme: Theme): Map<string, (right: number, middle: number) => string> {
+function legendOf(plot: Plot): Map<string, (right: number, middle: number) => string> {
   const samples = new Map<string, (right: number, middle: number) => string>();
   for (const layer of plot.columns.flat().flatMap((panel) => panel.layers)) {
     if (!layer.name || samples.has(layer.name)) continue;
@@ -210,12 +203,12 @@ function legendOf(plot: Plot, theme: Theme): Map<string, (right: number, middle:
 }
 
 /** The entries in lines, and the height that they take. */
-function legendText(plot: Plot, top: number, width: number, theme: Theme): { text: string; height: number } {
+function legendText(plot: Plot, top: number, width: number): { text: string; height: number } {
   const line = 20;
   let text = '';
   let right = frame.left;
   let down = top;
-  const entries = legendOf(plot, theme);
+  const entries = legendOf(plot);
   for (const [name, sample] of entries) {
     const length = 30 + name.length * letter + 16;
     if (right > frame.left && right + length > width) {
@@ -238,22 +231,23 @@ export interface Size {
 }
 
 /** The picture as SVG. */
-export function draw(plot: Plot, theme: Theme, size: Size = {}): string {
+export function draw(plot: Plot, size: Size = {}): string {
   const width = Math.max(320, Math.min(640, size.width || 640));
   const panels = placed(plot, width);
   const height = panels.at(-1)!.bottom + frame.bottom;
   const heading = size.isTitled ? (plot.subtitle ? 50 : 30) : 0;
-  const legend = legendText(plot, height + 6, width, theme);
+  const legend = legendText(plot, height + 6, width);
   const total = height + legend.height + heading;
   const title = size.isTitled
     ? `<text x="${frame.left}" y="20" fill="${theme.ink}" font-size="15" font-weight="600">${escapeText(plot.title)}</text>` +
       `<text x="${frame.left}" y="40" fill="${theme.faint}" font-size="12.5">${escapeText(plot.subtitle)}</text>`
     : '';
-  const moving = plot.moving ? movingText(panels, plot.moving, theme) : '';
+  const isTime = plot.moving?.y === undefined; // which files do not show
+  const moving = plot.moving && (size.isMarkApart || !isTime) ? movingText(panels, plot.moving) : '';
   return (
     `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${total}" role="img" aria-label="${escapeText(`${plot.title}. ${plot.description}`)}" font-family="system-ui, sans-serif">` +
     `<rect width="${width}" height="${total}" fill="${theme.paper}"/>${title}` +
-    `<g transform="translate(0 ${heading})">${panels.map((one) => panelText(one, width, theme)).join('')}${size.isMarkApart ? '' : moving}${legend.text}</g></svg>` +
+    `<g transform="translate(0 ${heading})">${panels.map((one) => panelText(one, width)).join('')}${size.isMarkApart ? '' : moving}${legend.text}</g></svg>` +
     (size.isMarkApart && moving ? `<svg class="overlay" viewBox="0 0 ${width} ${total}" aria-hidden="true">${moving}</svg>` : '')
   );
 }
