@@ -7,8 +7,8 @@ import textwrap
 from headers import Member, Source, Struct
 
 # Spans of memory, classes with behaviour of their own, and what the module gives as arrays.
-LEFT_OUT = {"ComparedDrive", "ComparisonOptions", "DriveList", "Grid", "MotionEvent", "MotionSample",
-            "NamedDrive", "Samples", "Shafts", "Span"}
+LEFT_OUT = {"Colour", "ComparedDrive", "ComparisonOptions", "DriveList", "Grid", "MachineRun",
+            "MotionEvent", "MotionSample", "NamedDrive", "Samples", "Shafts", "Span"}
 
 
 def python_name(member: Member) -> str:
@@ -16,7 +16,8 @@ def python_name(member: Member) -> str:
 
 
 SIMPLE = {"double": "float", "bool": "bool", "int": "int", "std::size_t": "int",
-          "std::uint64_t": "int", "std::string": "str", "std::string_view": "str", "Drive": "Drive"}
+          "std::uint64_t": "int", "std::string": "str", "std::string_view": "str", "Drive": "Drive",
+          "MapCurve": "tuple[tuple[float, float], ...]"}
 
 
 def python_type(name: str, source: Source) -> str:
@@ -25,6 +26,8 @@ def python_type(name: str, source: Source) -> str:
     if inner := re.fullmatch(r"std::(optional|vector)<(.*)>", name):
         of = python_type(inner[2], source)
         return f"{of} | None" if inner[1] == "optional" else f"tuple[{of}, ...]"
+    if name in source.aliases and name not in SIMPLE:
+        return python_type(source.aliases[name], source)
     return SIMPLE.get(name, name)
 
 
@@ -41,7 +44,7 @@ def python_default(member: Member, source: Source) -> str:
             return "_field(default_factory=Drive._empty)"
         if kind in source.enumerations:
             return repr(source.enumerations[kind].words[0])
-        empty = {"std::string": '""', "std::string_view": '""', "double": "0.0"}
+        empty = {"std::string": '""', "std::string_view": '""', "double": "0.0", "MapCurve": "()"}
         return empty.get(kind) or f"_field(default_factory={kind})"
     if "quiet_NaN" in default:
         return "None"

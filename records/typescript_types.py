@@ -7,7 +7,7 @@ from json_schemas import in_words
 
 SIMPLE = {"double": "number", "bool": "boolean", "std::monostate": "null",
           "Drive": "Record<string, number | string | null | unknown[]>",
-          "std::complex<double>": "{ real: number; imaginary: number }"}
+          "std::complex<double>": "{ real: number; imaginary: number }", "MapCurve": "Column"}
 
 
 def type_of(name: str, source: Source) -> str:
@@ -56,7 +56,9 @@ def interface_text(struct: Struct, source: Source) -> str:
 
 
 def types_text(source: Source) -> str:
-    text = "// The records that the core gives, made by records/make.\n\n"
+    text = ("// The records that the core gives, made by records/make.\n\n"
+            "/** Points beside the JSON, x and y by turns. */\n"
+            "export interface Column {\n  at: number;\n  count: number;\n}\n\n")
     for name, enumeration in source.enumerations.items():
         words = " | ".join(f"'{word}'" for word in enumeration.words) or "string"
         text += f"export type {name} = {words};\n\n"

@@ -5,11 +5,11 @@
 
 #include "arrays.hpp"
 #include "base/progress_part.hpp"
+#include "define.hpp"
 #include "gearlash/input.hpp"
 #include "gearlash/tolerance.hpp"
 #include "gearlash/tune.hpp"
 #include "input/axis_text.hpp"
-#include "interruptible.hpp"
 #include "module.hpp"
 #include "output/records.hpp"
 #include "question/series/tolerance_study.hpp"
@@ -28,7 +28,7 @@ py::object designed(py::handle drive, py::handle target, const py::object& param
                        ? read_axis_to_search("parameters", one.cast<std::string>(), of)
                        : from_python<Axis>(one, "parameters"));
   }
-  const auto answers = interruptible(progress, [&](Progress& reports) {
+  return to_python(interruptible(progress, [&](Progress& reports) {
     std::vector<FeasibleValues> found;
     while (found.size() < axes.size()) {
       ProgressPart part(reports, found.size(), axes.size());
@@ -36,27 +36,17 @@ py::object designed(py::handle drive, py::handle target, const py::object& param
       found.push_back(values(of, axes[found.size()], limits, part));
     }
     return found;
-  });
-  return to_python(answers);
-}
-
-py::object margin_of(py::handle drive, py::handle axes, const py::object& progress) {
-  const Drive of = drive_of(drive);
-  const auto list = from_python<std::vector<Axis>>(axes, "axes");
-  return to_python(interruptible(progress, [&](Progress& reports) {
-    return list.empty() ? margins(of, reports) : margins(of, list, reports);
   }));
 }
 
-py::object studied(py::handle series, py::handle sampling, py::handle questions,
-                   std::optional<double> error, const py::object& progress) {
-  const auto drives = from_python<TolerancedDrive>(series, "series");
-  const auto plan = from_python<SamplePlan>(sampling, "sampling");
-  const auto asked = from_python<StudyQuestions>(questions, "questions");
-  return to_python(interruptible(progress, [&](Progress& reports) {
-    return error ? study_tolerances_to(*error, drives, plan, asked, reports)
-                 : study_tolerances(drives, plan, asked, reports);
-  }));
+HuntingMargin margin_of(Progress& reports, const Drive& drive, const std::vector<Axis>& axes) {
+  return axes.empty() ? margins(drive, reports) : margins(drive, axes, reports);
+}
+
+ToleranceStudy studied(Progress& reports, const TolerancedDrive& series, const SamplePlan& sampling,
+                       const StudyQuestions& questions, std::optional<double> error) {
+  return error ? study_tolerances_to(*error, series, sampling, questions, reports)
+               : study_tolerances(series, sampling, questions, reports);
 }
 
 /// What samples do, as an array of records, for pieces of a study.
@@ -85,70 +75,59 @@ py::object study_of_samples(py::handle sampling, py::handle questions,
                             from_python<StudyQuestions>(questions, "questions"), results));
 }
 
-py::object indices(py::handle series, py::handle sampling, py::handle questions,
-                   const py::object& progress) {
-  const auto drives = from_python<TolerancedDrive>(series, "series");
-  const auto plan = from_python<SamplePlan>(sampling, "sampling");
-  const auto asked = from_python<StudyQuestions>(questions, "questions");
-  return to_python(interruptible(progress, [&](Progress& reports) {
-    return study_sensitivities(drives, plan, asked, reports);
-  }));
-}
-
-py::object widest(py::handle series, py::handle demand, py::handle sampling,
-                  const py::object& progress) {
-  const auto drives = from_python<TolerancedDrive>(series, "series");
-  const auto wanted = from_python<BacklashDemand>(demand, "demand");
-  const auto plan = from_python<SamplePlan>(sampling, "sampling");
-  return to_python(interruptible(
-      progress, [&](Progress& reports) { return widest_backlash(drives, wanted, plan, reports); }));
-}
-
-py::object tuned(py::handle task, py::handle effort, const py::object& progress) {
-  const auto wanted = from_python<TuneTask>(task, "task");
-  const auto most = from_python<TuneEffort>(effort, "effort");
-  return to_python(
-      interruptible(progress, [&](Progress& reports) { return tune(wanted, most, reports); }));
-}
-
 }  // namespace
 
 void add_design(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(detail::SampleResult, growth_at_rest, amplitude, frequency, verdict, meets,
                        refused);
-  module.def("target", [](const std::string& text, py::handle drive) {
-    return to_python(parse_target(text, drive_of(drive)));
-  });
+  define(
+      module, "target",
+      [](const std::string& text, const Drive& drive) { return parse_target(text, drive); },
+      "target", "drive");
   module.def("design", designed, py::call_guard<LongCall>());
-  module.def("usual_parameters",
-             [](py::handle drive) { return to_python(usual_parameters(drive_of(drive))); });
-  module.def("axis", [](const std::string& text, py::handle drive) {
-    return to_python(read_axis_to_search("axis", text, drive_of(drive)));
-  });
-  module.def("margins", margin_of, py::call_guard<LongCall>());
-  module.def("tolerance_study", studied, py::call_guard<LongCall>());
+  define(module, "usual_parameters", usual_parameters, "drive");
+  define(
+      module, "axis",
+      [](const std::string& text, const Drive& drive) {
+        return read_axis_to_search("axis", text, drive);
+      },
+      "axis", "drive");
+  define(module, "margins", margin_of, "drive", "axes");
+  define(module, "tolerance_study", studied, "series", "sampling", "questions", "error");
   module.def("answer_samples", answered_samples, py::call_guard<LongCall>());
   module.def("study_of", study_of_samples);
-  module.def("sensitivity_indices", indices, py::call_guard<LongCall>());
-  module.def("widest_backlash", widest, py::call_guard<LongCall>());
-  module.def("sampling_of", [](std::size_t samples, std::uint64_t seed) {
-    return to_python(sampling_of(samples, {.seed = seed}));
-  });
-  module.def("usual_sampling", [](py::handle series, py::handle questions) {
-    return to_python(usual_sampling(from_python<TolerancedDrive>(series, "series"),
-                                    from_python<StudyQuestions>(questions, "questions")));
-  });
-  module.def("tune", tuned, py::call_guard<LongCall>());
-  module.def("usual_gains",
-             [](py::handle drive) { return to_python(usual_gains(drive_of(drive))); });
-  module.def("axis_to_tune", [](const std::string& text, py::handle drive) {
-    return to_python(read_axis_to_tune("parameters", text, drive_of(drive)));
-  });
-  module.def("usual_target",
-             [](py::handle drive) { return to_python(usual_target(drive_of(drive))); });
-  module.def("permits", [](py::handle values, double value) {
-    return from_python<FeasibleValues>(values, "values").contains(value);
-  });
+  define(
+      module, "sensitivity_indices",
+      [](Progress& reports, const TolerancedDrive& series, const SamplePlan& sampling,
+         const StudyQuestions& questions) {
+        return study_sensitivities(series, sampling, questions, reports);
+      },
+      "series", "sampling", "questions");
+  define(
+      module, "widest_backlash",
+      [](Progress& reports, const TolerancedDrive& series, const BacklashDemand& demand,
+         const SamplePlan& sampling) { return widest_backlash(series, demand, sampling, reports); },
+      "series", "demand", "sampling");
+  define(
+      module, "sampling_of",
+      [](std::size_t samples, std::uint64_t seed) { return sampling_of(samples, {.seed = seed}); },
+      "samples", "seed");
+  define(module, "usual_sampling", usual_sampling, "series", "questions");
+  define(
+      module, "tune",
+      [](Progress& reports, const TuneTask& task, const TuneEffort& effort) {
+        return tune(task, effort, reports);
+      },
+      "task", "effort");
+  define(module, "usual_gains", usual_gains, "drive");
+  define(
+      module, "axis_to_tune",
+      [](const std::string& text, const Drive& drive) {
+        return read_axis_to_tune("parameters", text, drive);
+      },
+      "parameters", "drive");
+  define(module, "usual_target", usual_target, "drive");
+  define(module, "permits", &FeasibleValues::contains, "values", "value");
 }
 
 }  // namespace gearlash::python

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/fault.hpp"
 #include "gearlash/output.hpp"
 #include "gearlash/parameter.hpp"
 #include "input/drive_file.hpp"
@@ -43,9 +44,7 @@ TolerancedDrive with_numbers(TolerancedDrive drive,
       return find_parameter(varied.path) == find_parameter(changed);
     });
   }
-  if (const std::vector<Fault> found = faults(drive.nominal); !found.empty()) {
-    throw InvalidInput(found);
-  }
+  require_none(faults(drive.nominal));
   return drive;
 }
 
@@ -53,7 +52,7 @@ TolerancedDrive with_numbers(TolerancedDrive drive,
 TolerancedDrive with_tolerances(const TolerancedDrive& drive, py::handle tolerances) {
   const TolerancedDrive varied{
       drive.nominal, from_python<std::vector<ParameterTolerance>>(tolerances, "tolerances")};
-  if (const std::vector<Fault> found = faults(varied); !found.empty()) throw InvalidInput(found);
+  require_none(faults(varied));
   return read(given_toml(varied), "", "", {}, true);
 }
 
@@ -62,7 +61,7 @@ TolerancedDrive checked_normal_form(double damping, double inertia_ratio, double
                                     std::optional<double> natural_frequency) {
   Drive drive = normal_form(damping, inertia_ratio, friction_ratio, backlash, restitution);
   drive.servo->natural_frequency = natural_frequency;
-  if (const std::vector<Fault> found = faults(drive); !found.empty()) throw InvalidInput(found);
+  require_none(faults(drive));
   return {std::move(drive), {}};
 }
 
@@ -86,10 +85,7 @@ void add_drives(py::module_& module) {
   module.def("save", [](const std::string& path, const std::string& text) { save(path, text); });
   module.def("read", read);
   module.def("normal_form", checked_normal_form);
-  module.def("quantities", [] {
-    const std::span<const QuantityInfo> all = quantities();
-    return to_python(std::vector<QuantityInfo>(all.begin(), all.end()));
-  });
+  module.def("quantities", [] { return to_python(quantities()); });
 }
 
 }  // namespace gearlash::python

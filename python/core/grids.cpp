@@ -2,10 +2,11 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
+#include "base/fault.hpp"
+#include "define.hpp"
 #include "gearlash/grid.hpp"
 #include "gearlash/version.hpp"
 #include "input/axis_text.hpp"
-#include "interruptible.hpp"
 #include "module.hpp"
 #include "output/grid_description.hpp"
 #include "output/records.hpp"
@@ -15,10 +16,10 @@
 namespace gearlash::python {
 namespace {
 
-std::vector<Quantity> quantities_named(const std::vector<std::string>& names) {
+std::vector<Quantity> quantities_named(py::handle names) {
   std::vector<Quantity> list;
   std::vector<Fault> unknown;
-  for (const std::string& name : names) {
+  for (const auto& name : from_python<std::vector<std::string>>(names, "quantities")) {
     const std::optional<Quantity> quantity = find_quantity(name);
     if (quantity) list.push_back(*quantity);
     if (!quantity)
@@ -50,10 +51,10 @@ Grid grid_of(py::handle drive, py::handle axes, bool proved = false) {
           .proved = proved};
 }
 
-py::tuple evaluated_grid(py::handle drive, py::handle axes, const std::vector<std::string>& names,
-                         bool proved, const py::object& progress) {
+py::tuple evaluated_grid(py::handle drive, py::handle axes, py::handle names, py::handle proved,
+                         const py::object& progress) {
   const std::vector<Quantity> quantities = quantities_named(names);
-  const Grid grid = grid_of(drive, axes, proved);
+  const Grid grid = grid_of(drive, axes, from_python<bool>(proved, "proved"));
   return columns_of_table(
       interruptible(progress,
                     [&](Progress& reports) { return evaluate(grid, quantities, reports); }),
@@ -61,7 +62,7 @@ py::tuple evaluated_grid(py::handle drive, py::handle axes, const std::vector<st
 }
 
 py::tuple evaluated_list(py::handle drive, const std::vector<std::string>& paths,
-                         const std::vector<Numbers>& values, const std::vector<std::string>& names,
+                         const std::vector<Numbers>& values, py::handle names,
                          const py::object& progress) {
   const std::vector<Quantity> quantities = quantities_named(names);
   DriveList list{.drive = drive_of(drive), .paths = paths};
@@ -112,25 +113,17 @@ py::dict description(py::handle drive, py::handle axes, bool proved) {
 void add_grids(py::module_& module) {
   module.def("evaluate_grid", evaluated_grid, py::call_guard<LongCall>());
   module.def("evaluate_list", evaluated_list, py::call_guard<LongCall>());
-  module.def("check_grid",
-             [](py::handle drive, py::handle axes, const std::vector<std::string>& names) {
-               (void)quantities_named(names);
-               const std::vector<Fault> found = faults(grid_of(drive, axes));
-               if (!found.empty()) throw InvalidInput(found);
-             });
+  module.def("check_grid", [](py::handle drive, py::handle axes, py::handle names) {
+    (void)quantities_named(names);
+    require_none(faults(grid_of(drive, axes)));
+  });
   module.def("is_closed_grid", [](py::handle drive, py::handle axes) {
     return !Family(grid_of(drive, axes)).engines().search;
   });
   module.def("description", description);
-  module.def("path_named", [](const std::string& name, py::handle drive) {
-    return path_named(name, drive_of(drive));
-  });
-  module.def("linear", [](const std::string& path, double from, double to, std::size_t count) {
-    return to_python(linear(path, from, to, count));
-  });
-  module.def("logarithmic", [](const std::string& path, double from, double to, std::size_t count) {
-    return to_python(logarithmic(path, from, to, count));
-  });
+  define(module, "path_named", path_named, "name", "drive");
+  define(module, "linear", linear, "path", "start", "stop", "count");
+  define(module, "logarithmic", logarithmic, "path", "start", "stop", "count");
   module.def("read_axis", [](const std::string& path, const std::string& values, py::handle drive) {
     return to_python(read_axis({path, path, values}, drive_of(drive)));
   });

@@ -87,5 +87,6 @@ PYBIND11_MODULE(_core, module) {
   python::add_motions(module);
   python::add_grids(module);
   python::add_design(module);
+  python::add_plots(module);
   python::add_thesis(module);
 }

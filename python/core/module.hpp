@@ -10,6 +10,7 @@ void add_analysis(pybind11::module_& module);
 void add_motions(pybind11::module_& module);
 void add_grids(pybind11::module_& module);
 void add_design(pybind11::module_& module);
+void add_plots(pybind11::module_& module);
 void add_thesis(pybind11::module_& module);
 
 }  // namespace gearlash::python

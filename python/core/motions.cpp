@@ -21,14 +21,10 @@ Motion simulated(py::handle drive, double until, py::handle start, std::size_t m
 
 py::dict columns_of_samples(Samples samples) {
   py::dict columns;
-  columns["time"] = array_of(std::move(samples.time));
-  columns["load_position"] = array_of(std::move(samples.load_position));
-  columns["load_speed"] = array_of(std::move(samples.load_speed));
-  columns["motor_position"] = array_of(std::move(samples.motor_position));
-  columns["motor_speed"] = array_of(std::move(samples.motor_speed));
-  columns["motor_torque"] = array_of(std::move(samples.motor_torque));
-  columns["reference"] = array_of(std::move(samples.reference));
-  columns["load_torque"] = array_of(std::move(samples.load_torque));
+  const auto add = [&](const auto& member) {
+    columns[member.name] = array_of(std::move(samples.*(member.place)));
+  };
+  std::apply([&](const auto&... member) { (add(member), ...); }, Record<Samples>::members);
   return columns;
 }
 
@@ -74,12 +70,7 @@ void add_motions(py::module_& module) {
       .def("at", at, py::call_guard<LongCall>())
       .def("modes_at", modes_at)
       .def("events", events)
-      .def("touches",
-           [](const Motion& motion) {
-             py::list rows;
-             for (const MotionTouch& touch : motion.touches()) rows.append(to_python(touch));
-             return py::tuple(rows);
-           })
+      .def("touches", [](const Motion& motion) { return to_python(motion.touches()); })
       .def("energy", [](const Motion& motion) { return to_python(motion.energy()); })
       .def_property_readonly("end_time", &Motion::end_time)
       .def_property_readonly("stop", [](const Motion& motion) { return to_python(motion.stop()); })

@@ -24,6 +24,7 @@ namespace gearlash::python {
 namespace py = pybind11;
 
 using records::is_a;
+using records::IsCurve;
 using records::IsRecord;
 using records::IsWord;
 using records::Record;
@@ -77,12 +78,17 @@ py::object to_python(const Type& value) {
     return value ? to_python(*value) : py::object(py::none());
   } else if constexpr (is_a<Type, std::variant>) {
     return std::visit([](const auto& held) { return to_python(held); }, value);
+  } else if constexpr (IsCurve<Type>) {
+    py::tuple points(value.size());
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      points[i] = py::make_tuple(value[i].x, value[i].y);
+    }
+    return points;
   } else if constexpr (requires { value.front().second; }) {
     py::dict names;
     for (const auto& [name, of] : value) names[py::str(std::string(name))] = to_python(of);
     return names;
   } else {
-    static_assert(is_a<Type, std::vector>);
     py::tuple list(value.size());
     for (std::size_t i = 0; i < value.size(); ++i) list[i] = to_python(value[i]);
     return list;

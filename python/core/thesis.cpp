@@ -1,13 +1,12 @@
 // The thesis of 1960: its program, its table and its figures.
 #include <pybind11/stl.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "arrays.hpp"
 #include "interruptible.hpp"
 #include "module.hpp"
-#include "output/records.hpp"
+#include "python/inner_records.hpp"
 #include "thesis/exact_curve.hpp"
 #include "thesis/figures.hpp"
 #include "thesis/float_1604.hpp"
@@ -48,17 +47,6 @@ std::vector<PrintedLine> lines_of_machine(const ProgramParameters& parameters, s
   return lines;
 }
 
-std::vector<PrintedLine> lines_of_port(const ProgramParameters& parameters, std::size_t count,
-                                       Progress& reports) {
-  thesis::Program1960<double> program(parameters);
-  std::vector<PrintedLine> lines;
-  while (lines.size() < count && reports.go_on(0.0)) {
-    program.step([&](const PrintedLine& line) { lines.push_back(line); });
-  }
-  lines.resize(std::min(lines.size(), count));
-  return lines;
-}
-
 /// Rows of x and y.
 py::array_t<double> rows_of(const std::vector<MapPoint>& points) {
   std::vector<double> numbers;
@@ -66,7 +54,8 @@ py::array_t<double> rows_of(const std::vector<MapPoint>& points) {
   return array_of(std::move(numbers)).reshape({py::ssize_t(points.size()), py::ssize_t{2}});
 }
 
-py::array_t<double> printed(std::size_t lines, const py::object& servo, bool emulated) {
+py::array_t<double> printed(std::size_t lines, const py::object& servo, py::handle machine) {
+  const auto emulated = from_python<bool>(machine, "machine");
   ProgramParameters parameters = thesis::listed_parameters;
   if (!servo.is_none()) {
     const auto [damping, inertia_ratio, friction_ratio, backlash] =
@@ -76,7 +65,7 @@ py::array_t<double> printed(std::size_t lines, const py::object& servo, bool emu
   }
   return rows_of(interruptible(py::none(), [&](Progress& reports) {
     return emulated ? lines_of_machine(parameters, lines, reports)
-                    : lines_of_port(parameters, lines, reports);
+                    : thesis::printout<double>(parameters, lines);
   }));
 }
 
@@ -90,19 +79,15 @@ py::array_t<double> table_2() {
   return array_of(std::move(numbers)).reshape({py::ssize_t{-1}, py::ssize_t{5}});
 }
 
-py::dict run(double damping, double inertia_ratio, double friction_ratio, double backlash,
-             bool emulated) {
+py::object run(double damping, double inertia_ratio, double friction_ratio, double backlash,
+               py::handle machine) {
+  const auto emulated = from_python<bool>(machine, "machine");
   const ProgramParameters parameters =
       thesis::program_parameters(servo_of(damping, inertia_ratio, friction_ratio, backlash));
-  const thesis::SettledCycle cycle = interruptible(py::none(), [&](Progress& reports) {
+  return to_python(interruptible(py::none(), [&](Progress& reports) {
     return emulated ? thesis::run_machine_until_settled(parameters, reports).cycle
                     : thesis::run_until_settled(parameters, {}, reports);
-  });
-  using namespace py::literals;
-  return py::dict("settled"_a = cycle.settled, "hunts"_a = cycle.hunts,
-                  "diverged"_a = cycle.diverged, "amplitude"_a = cycle.amplitude,
-                  "period"_a = cycle.period, "cycles"_a = cycle.cycles,
-                  "run_time"_a = cycle.run_time);
+  }));
 }
 
 py::list figures() {

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, Optional
 
 from gearlash import _core
-from gearlash._arguments import optional_number, texts, where_given
+from gearlash._arguments import where_given
 from gearlash._drive import Drive
 from gearlash._records import Answer, Jacobian, QuantityInfo, Wanted
 
@@ -71,9 +71,8 @@ def analyse(drive: Drive, *, proofs: bool = True, ceiling: bool = True, loop: bo
     >>> round(answer.cycles[0].amplitude, 9), round(answer.cycles[0].period, 6)
     (0.241611108, 6.456205)
     """
-    wanted = Wanted(proofs=proofs, ceiling=ceiling, loop=loop, step=optional_number("step", step),
-                    borders=borders, quantization=quantization,
-                    **where_given(motion_bytes=motion_bytes))
+    wanted = Wanted(proofs=proofs, ceiling=ceiling, loop=loop, step=step, borders=borders,
+                    quantization=quantization, **where_given(motion_bytes=motion_bytes))
     return dataclasses.replace(_core.analyse(drive, wanted, progress), drive=drive)
 
 
@@ -116,8 +115,7 @@ def derivatives(drive: Drive, quantities: Sequence[str], parameters: Sequence[st
     >>> round(slopes.elasticity("amplitude", "servo.backlash"), 12)
     1.0
     """
-    return _core.derivatives(drive, texts("quantities", quantities),
-                             texts("parameters", parameters), progress)
+    return _core.derivatives(drive, quantities, parameters, progress)
 
 
 class Report(dict[str, Any]):

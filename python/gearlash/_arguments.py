@@ -43,25 +43,10 @@ def listed(name: str, several: Iterable[_One]) -> list[_One]:
     return list(several)
 
 
-def texts(name: str, several: Iterable[str]) -> list[str]:
-    """A list of texts."""
-    given = listed(name, several)
-    for one in given:
-        text(name, one)
-    return given
-
-
 def text(name: str, given: str) -> str:
     if not isinstance(given, str):
         raise TypeError(f"{name} must be text, not {type(given).__name__}")
     return given
-
-
-def truth(name: str, given: bool) -> bool:
-    """True or False, also of NumPy; nothing that only counts as one of them."""
-    if type(given).__name__ not in ("bool", "bool_"):
-        raise TypeError(f"{name} must be True or False, not {type(given).__name__}")
-    return bool(given)
 
 
 def mapping(name: str, given: Mapping[str, _One]) -> dict[str, _One]:

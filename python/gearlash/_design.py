@@ -7,8 +7,8 @@ from typing import Any, Union, get_args
 
 from gearlash import _core, _records
 from gearlash._analysis import Progress
-from gearlash._arguments import (listed, mapping, number, one_of, optional_number, text,
-                                 where_given, whole)
+from gearlash._arguments import (listed, mapping, number, one_of, optional_number, where_given,
+                                 whole)
 from gearlash._arguments import share as _share
 from gearlash._drive import Drive
 from gearlash._records import (Aim, Axis, BacklashDemand, Distribution, FeasibleValues,
@@ -30,7 +30,7 @@ def target(wanted: TargetLike, drive: Drive) -> Target:
     InvalidInput
         For unknown quantities, wrong units and contradictions.
     """
-    return wanted if isinstance(wanted, Target) else _core.target(text("target", wanted), drive)
+    return wanted if isinstance(wanted, Target) else _core.target(wanted, drive)
 
 
 def design(drive: Drive, wanted: TargetLike, parameters: Sequence[str | Axis] | None = None, *,
@@ -191,7 +191,7 @@ def tolerance(drive: SeriesLike, varied: Mapping[str, Distribution] | None = Non
         if error is not None:
             raise TypeError("client needs samples, not error")
         return distributed.study(one, sampling, questions, client, progress=progress)
-    return _core.tolerance_study(one, sampling, questions, optional_number("error", error), progress)
+    return _core.tolerance_study(one, sampling, questions, error, progress)
 
 
 def sensitivity_indices(drive: SeriesLike, varied: Mapping[str, Distribution] | None = None, *,
@@ -319,7 +319,7 @@ def tune(drive: SeriesLike, parameters: Sequence[str | Axis] | None = None, *,
     one = series(drive, varied)
     nominal = one.nominal
     axes = tuple(parameter if isinstance(parameter, Axis)
-                 else _core.axis_to_tune(text("parameters", parameter), nominal)
+                 else _core.axis_to_tune(parameter, nominal)
                  for parameter in (listed("parameters", parameters) if parameters is not None
                                    else _core.usual_gains(nominal)))
     if not axes:

@@ -7,11 +7,14 @@ import math
 import os
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, SupportsFloat, Union
 
 from gearlash import _core as core
+from gearlash import _notebook
 from gearlash._arguments import listed, mapping, number, optional_number
+from gearlash._errors import InvalidInput
 
 if TYPE_CHECKING:
     from gearlash._records import ParameterInfo, ParameterTolerance
@@ -343,10 +346,7 @@ class Drive:
             numbers.append(f"restitution={float(contact['restitution'])!r}")
         return f"Drive.normal_form({', '.join(numbers)})"
 
-    def _repr_html_(self) -> str:
-        from gearlash import _notebook
-
-        return _notebook.html_of_drive(self)
+    _repr_html_ = _notebook.html_of_drive
 
 
 class Section(Mapping[str, Value]):
@@ -390,10 +390,6 @@ def _kind(drive: Drive, path: str) -> str:
 
 def _read(text: str, settings: list[tuple[str, str]]) -> core.Drive:
     """Read text that a program made: places in it mean nothing to the caller."""
-    from dataclasses import replace
-
-    from gearlash._errors import InvalidInput
-
     try:
         return core.read(text, "", "", settings, True)
     except InvalidInput as error:

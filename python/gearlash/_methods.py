@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from gearlash import _core
+from gearlash import _core, _notebook
 from gearlash._arguments import listed
 
 if TYPE_CHECKING:
@@ -26,10 +26,7 @@ class Record:
                 kept = given.tolist() if hasattr(given, "tolist") else given
                 object.__setattr__(self, name, tuple(listed(name, kept)))
 
-    def _repr_html_(self) -> str:
-        from gearlash import _notebook
-
-        return _notebook.html_of_record(self)
+    _repr_html_ = _notebook.html_of_record
 
 
 class Bounds(Record):
@@ -107,15 +104,8 @@ class Answer(Record):
     def __str__(self) -> str:
         return _core.to_text(self.drive, self) if self.drive is not None else repr(self)
 
-    def _repr_html_(self) -> str:
-        from gearlash import _notebook
-
-        return _notebook.html_of_answer(self)
-
-    def _repr_png_(self) -> bytes | None:
-        from gearlash import _notebook
-
-        return _notebook.png_of_answer(self)
+    _repr_html_ = _notebook.html_of_answer
+    _repr_png_ = _notebook.png_of_answer
 
 
 class Jacobian(Record):

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gearlash import _core
+from gearlash import _core, _notebook
 from gearlash._analysis import Progress
 from gearlash._arguments import number, whole
 from gearlash._drive import Drive
@@ -144,10 +144,7 @@ class Motion:
     def __repr__(self) -> str:
         return f"<Motion to {self.end_time:g} s, {len(self._core.events())} events, {self.stop}>"
 
-    def _repr_png_(self) -> bytes | None:
-        from gearlash import _notebook
-
-        return _notebook.png_of_motion(self)
+    _repr_png_ = _notebook.png_of_motion
 
 
 def simulate(drive: Drive, until: float, *, start: Start | None = None,

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearlash import _core
 from gearlash._analysis import Progress, Report
-from gearlash._arguments import listed, mapping, number, optional_number, text, texts, truth, whole
+from gearlash._arguments import listed, mapping, optional_number, whole
 from gearlash._drive import Drive
 from gearlash._motion import _numbers
 from gearlash._records import Axis
@@ -34,17 +34,12 @@ def linear(path: str, start: float, stop: float, count: int) -> Axis:
     InvalidInput
         For ends that are not finite or not in order, and a count below 2 or above 1,000,000.
     """
-    return _core.linear(*_spaced(path, start, stop, count))
+    return _core.linear(path, start, stop, whole("count", count, 0))
 
 
 def logarithmic(path: str, start: float, stop: float, count: int) -> Axis:
     """Make an axis of `count` values, evenly spaced in logarithm; otherwise as :func:`linear`."""
-    return _core.logarithmic(*_spaced(path, start, stop, count))
-
-
-def _spaced(path: str, start: float, stop: float, count: int) -> tuple[str, float, float, int]:
-    return (text("path", path), number("start", start), number("stop", stop),
-            whole("count", count, 0))
+    return _core.logarithmic(path, start, stop, whole("count", count, 0))
 
 
 def axis(drive: Drive, path: str, values: AxisLike) -> Axis:
@@ -198,14 +193,13 @@ def sweep(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis] | None = N
     if arrays is not None:
         if proved or client is not None:
             raise TypeError("proved and client need axes")
-        return _sweep_arrays(drive, arrays, texts("quantities", quantities), progress)
-    asked = texts("quantities", quantities)
+        return _sweep_arrays(drive, arrays, quantities, progress)
     varied, grid = grid_of(drive, axes or ())
     if client is not None:
         from gearlash import distributed
 
-        return distributed.sweep(varied, grid, asked, client, proved=proved, progress=progress)
-    verdicts, columns = _core.evaluate_grid(varied, grid, asked, truth("proved", proved), progress)
+        return distributed.sweep(varied, grid, quantities, client, proved=proved, progress=progress)
+    verdicts, columns = _core.evaluate_grid(varied, grid, quantities, proved, progress)
     return dataset(varied, grid, verdicts, columns, proved=proved)
 
 
@@ -260,12 +254,12 @@ def compare(drives: Drive | Mapping[str, Drive],
         if len(grid) != 1:
             raise ValueError(f"axes must be one, not {len(grid)}")
         named, one = [("", varied)], grid[0]
-    return Report(*_core.compare(named, one, texts("quantities", quantities),
+    return Report(*_core.compare(named, one, quantities,
                                  optional_number("step", step), optional_number("until", until),
                                  progress))
 
 
-def _sweep_arrays(drive: Drive, arrays: Mapping[str, ArrayLike], quantities: list[str],
+def _sweep_arrays(drive: Drive, arrays: Mapping[str, ArrayLike], quantities: Sequence[str],
                   progress: Progress) -> xarray.Dataset | Any:
     # Copies: what the caller does to his arrays later must change neither drives nor coordinates.
     shapes = {path: np.shape(values) for path, values in mapping("arrays", arrays).items()}

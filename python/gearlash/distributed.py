@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 
 from gearlash import _core
 from gearlash._analysis import Progress
-from gearlash._arguments import texts
 from gearlash._drive import Drive
 from gearlash._records import (Axis, SamplePlan, StudyQuestions, TolerancedDrive,
                                ToleranceStudy)
@@ -35,7 +34,7 @@ _Piece = tuple[NDArray[np.int8], dict[str, NDArray[np.float64]]]
 
 def _evaluate(drive: Drive, axes: Sequence[Axis], quantities: Sequence[str], proved: bool) -> _Piece:
     """Answer one piece, in a worker."""
-    verdicts, columns = _core.evaluate_grid(drive, list(axes), list(quantities), proved, None)
+    verdicts, columns = _core.evaluate_grid(drive, axes, quantities, proved, None)
     # Copies, for memory of C++ cannot be sent.
     return np.array(verdicts), {name: np.array(column) for name, column in columns.items()}
 
@@ -84,7 +83,7 @@ def graph(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis], quantitie
 
     one = delayed(_evaluate, pure=True)
     varied, grid = grid_of(drive, axes)
-    return [one(varied, piece, tuple(texts("quantities", quantities)), proved)
+    return [one(varied, piece, tuple(quantities), proved)
             for piece in pieces(grid, most)]
 
 
@@ -113,7 +112,7 @@ def sweep(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis],
         Equal to that of :func:`gearlash.sweep` to the bit.
     """
     varied, grid = grid_of(drive, axes)
-    _core.check_grid(varied, grid, texts("quantities", quantities))  # before anything is sent
+    _core.check_grid(varied, grid, quantities)  # before anything is sent
     if most is None:
         is_closed = _core.is_closed_grid(varied, grid)
         line = len(grid[-1].values) if len(grid) > 1 else RUN

@@ -10,12 +10,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib import pyplot
+from matplotlib.collections import PolyCollection
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
+from gearlash import _core
 from gearlash._arguments import whole
 from gearlash._methods import Answer
 from gearlash._motion import Motion, simulate
-from gearlash._records import Cycle, Start, ToleranceStudy
+from gearlash._records import Cycle, Layer, Panel, PlotAxis, Start, ToleranceStudy
 from gearlash._sweep import verdict_words
 
 if TYPE_CHECKING:
@@ -27,7 +29,10 @@ Axes = Any  # matplotlib.axes.Axes
 COLOURS = {"load": "#0072B2", "motor": "#D55E00", "reference": "#000000", "hunts": "#D55E00",
            "rest": "#009E73"}
 _WIDTH = 3.5  # inches: a column
+_POINTS = 0.45  # of a width of 1 in the library's plots
 
+_MARKS = {"plus": "+", "cross": "x", "star": (8, 2, 0), "square": "s", "circle": "o", "disc": "o",
+          "triangle": "^", "wedge": "v", "diamond": "D", "pentagon": "p"}
 _ANGLE = {"rad": 1.0, "mrad": 1e-3, "deg": np.pi / 180, "arcmin": np.pi / 10800,
           "arcsec": np.pi / 648000}
 
@@ -52,16 +57,12 @@ def _unit(angle: str) -> float:
     return float(_ANGLE[angle])
 
 
-def motion(moving: Motion, *, unit: str = "rad", points: int = 2000, ax: Axes | None = None) -> Axes:
-    """Draw both shafts and the reference over time.
+def draw(panel: Panel, *, ax: Axes | None = None) -> Axes:
+    """Draw a panel of a plot as the library makes it.
 
     Parameters
     ----------
-    moving : Motion
-    unit : str
-        Of angles: rad, mrad, deg, arcmin or arcsec.
-    points : int
-        Times, evenly spaced.
+    panel : Panel
     ax : matplotlib.axes.Axes, optional
 
     Returns
@@ -69,15 +70,63 @@ def motion(moving: Motion, *, unit: str = "rad", points: int = 2000, ax: Axes | 
     matplotlib.axes.Axes
     """
     ax = _axes(ax)
-    samples = moving.at(np.linspace(0.0, moving.end_time, whole("points", points, 2, 10**8)))
-    for name, label in (("motor_position", "motor"), ("load_position", "load")):
-        ax.plot(samples.time, samples[name] / _unit(unit), color=COLOURS[label], linewidth=0.9,
-                label=label)
-    if samples.reference.any():
-        ax.plot(samples.time, samples.reference / _unit(unit), color=COLOURS["reference"],
-                linewidth=0.7, linestyle="--", label="reference")
-    ax.legend(frameon=False)
-    return _tidy(ax, "time (s)", f"position ({unit})")
+    named: set[str] = set()
+    for layer in panel.layers:
+        _add(ax, layer, "" if layer.name in named else layer.name)
+        named.add(layer.name)
+    for word in panel.texts:
+        ax.text(word.at.x, word.at.y, word.text, color=word.colour, rotation=word.slope,
+                size=7.0 * word.size, ha="center", va="center")
+    _set_axis(ax.xaxis, ax.set_xscale, ax.set_xlim, panel.x)
+    _set_axis(ax.yaxis, ax.set_yscale, ax.set_ylim, panel.y)
+    ax.legend(frameon=False, fontsize="x-small", loc="lower center", bbox_to_anchor=(0.5, 1.0),
+              ncols=3)
+    return _tidy(ax, panel.x.name, panel.y.name)
+
+
+def _add(ax: Axes, layer: Layer, label: str) -> None:
+    points = np.array(layer.points).reshape(-1, 2)
+    style: dict[str, Any] = {"color": layer.colour, "label": label or "_nolegend_"}
+    if layer.kind == "area":
+        gaps = np.flatnonzero(np.isnan(points[:, 0]))
+        parts = [part[~np.isnan(part[:, 0])] for part in np.split(points, gaps)]
+        ax.add_collection(PolyCollection(parts, linewidth=0.0, **style))
+    elif layer.kind == "marks":
+        is_open = layer.mark.startswith("open_") or layer.mark == "circle"
+        ax.plot(*points.T, linestyle="none", marker=_MARKS[layer.mark.removeprefix("open_")],
+                markersize=5.0 * layer.size, fillstyle="none" if is_open else "full", **style)
+    else:
+        dashes = tuple(map(float, layer.dashes.split(","))) if layer.dashes else None
+        ax.plot(*points.T, linewidth=_POINTS * layer.width,
+                linestyle=(0, dashes) if dashes else "-", **style)
+
+
+def _set_axis(axis: Any, set_scale: Any, set_limits: Any, drawn: PlotAxis) -> None:
+    set_scale("log" if drawn.logarithmic else "linear")
+    set_limits(drawn.low, drawn.high)
+    axis.set_ticks([tic.at for tic in drawn.tics], [tic.text for tic in drawn.tics])
+    axis.set_ticks([], minor=True)
+
+
+def motion(moving: Motion, *, unit: str = "rad", points: int = 2000, ax: Axes | None = None) -> Axes:
+    """Draw both shafts and the reference over time, and the gap around the load.
+
+    Parameters
+    ----------
+    moving : Motion
+    unit : str
+        Of angles: rad, mrad, deg, arcmin or arcsec.
+    points : int
+        Without effect: points lie where the curves bend.
+    ax : matplotlib.axes.Axes, optional
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+    """
+    _unit(unit)
+    whole("points", points, 2, 10**8)
+    return draw(_core.plot_over_time(moving._core, moving.drive, unit).columns[0][0], ax=ax)
 
 
 def cycle(answer: Answer, which: Cycle | None = None, *, unit: str = "rad",
@@ -107,17 +156,12 @@ def cycle(answer: Answer, which: Cycle | None = None, *, unit: str = "rad",
     begin = Start(load_position=max(which.amplitude, which.motor_amplitude))
     settled = _settling_time(which)
     moving = simulate(drive, settled + which.period, start=begin)
-    samples = moving.at(np.linspace(settled, moving.end_time, 2000))
-    drawn = float(np.ptp(samples.load_position)) / 2
+    drawn = float(np.ptp(moving.at(np.linspace(settled, moving.end_time, 2000)).load_position)) / 2
     if abs(drawn - which.amplitude) > 2e-3 * max(which.amplitude, which.motor_amplitude):
         raise ValueError(f"the motion from ±{which.amplitude:.4g} rad leads to ±{drawn:.4g} rad: "
                          "the cycle is not stable, or another one draws the start in")
-    ax = _axes(ax)
-    for shaft in ("motor", "load"):
-        ax.plot(samples[f"{shaft}_position"] / _unit(unit), samples[f"{shaft}_speed"] / _unit(unit),
-                color=COLOURS[shaft], linewidth=0.9, label=shaft)
-    ax.legend(frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
-    return _tidy(ax, f"position ({unit})", f"speed ({unit}/s)")
+    _unit(unit)
+    return draw(_core.plot_of_cycle(moving._core, drive, unit, settled).columns[0][0], ax=ax)
 
 
 def _settling_time(which: Cycle) -> float:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gearlash import _core
-from gearlash._arguments import number, truth, whole
+from gearlash._arguments import number, whole
+from gearlash._records import SettledCycle
 
 #: The columns of a printout.
 COLUMNS = ("time", "motor_speed", "motor_position", "load_speed", "load_position")
@@ -61,39 +61,13 @@ def printout(lines: int = 38, servo: tuple[float, float, float, float] | None = 
             raise ValueError("servo must be four numbers: damping, inertia_ratio, friction_ratio "
                              f"and backlash, not {servo!r}")
         servo = _four(*servo)
-    return _core.thesis_printout(whole("lines", lines, 0, 1_000_000), servo,
-                                 truth("machine", machine))
+    return _core.thesis_printout(whole("lines", lines, 0, 1_000_000), servo, machine)
 
 
 def _four(damping: float, inertia_ratio: float, friction_ratio: float, backlash: float
           ) -> tuple[float, float, float, float]:
     return (number("damping", damping), number("inertia_ratio", inertia_ratio),
             number("friction_ratio", friction_ratio), number("backlash", backlash))
-
-
-@dataclass(frozen=True)
-class SettledCycle:
-    """The limit cycle as the program of 1960 finds it; rad, and s for ω_n = 1 rad/s.
-
-    Attributes
-    ----------
-    settled, hunts, diverged : bool
-    amplitude : float
-        Half the peak-to-peak of the load, mean of the last cycles.
-    period : float
-    cycles : int
-        Number of averaged cycles.
-    run_time : float
-        Computed time of the servo.
-    """
-
-    settled: bool
-    hunts: bool
-    diverged: bool
-    amplitude: float
-    period: float
-    cycles: int
-    run_time: float
 
 
 def run(damping: float, inertia_ratio: float, friction_ratio: float, backlash: float = 0.3, *,
@@ -108,8 +82,7 @@ def run(damping: float, inertia_ratio: float, friction_ratio: float, backlash: f
     >>> thesis.run(0.19, 2, 0.1).amplitude > 0.241611108
     True
     """
-    return SettledCycle(**_core.thesis_run(
-        *_four(damping, inertia_ratio, friction_ratio, backlash), truth("machine", machine)))
+    return _core.thesis_run(*_four(damping, inertia_ratio, friction_ratio, backlash), machine)
 
 
 def figures() -> list[dict[str, Any]]:

@@ -48,12 +48,15 @@ void add_borders(GridTable& table, Progress& progress) {
       hunting_boundary(table.grid, table.table[Quantity::growth_at_rest], progress);
   if (progress.go_on(0.0)) table.dissipative_boundary = dissipative_boundary(table.grid, progress);
   const bool wants_regions = table.target || Family(table.grid).engines().search;
-  if (!wants_regions || !has_regions(table.grid)) return;
+  if (wants_regions && has_regions(table.grid)) table.regions = regions_of(table, progress);
+}
+
+std::vector<MapRegion> regions_of(const GridTable& table, Progress& progress) {
   std::vector<PlaceKind> kinds = table.kinds;
   if (!table.target) {
     for (const Verdict verdict : table.table.verdicts()) kinds.push_back(kind_of(verdict));
   }
-  table.regions = regions_of(table.grid, kinds, table.target, progress);
+  return regions_of(table.grid, kinds, table.target, progress);
 }
 
 std::string certainty_of(const Grid& grid) {

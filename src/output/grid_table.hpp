@@ -36,6 +36,9 @@ RowCount work_out(GridTable& table, Progress& progress = no_progress());
 /// its axes are y, x, and it has growth at rest.
 void add_borders(GridTable& table, Progress& progress = no_progress());
 
+/// The regions of kinds of motion, or those where the target is met. Precondition: has_regions().
+std::vector<MapRegion> regions_of(const GridTable& table, Progress& progress = no_progress());
+
 /// The certainty of the grid's verdicts: "computed", "enclosed", "searched", or two of them with
 /// the drives that each applies to.
 std::string certainty_of(const Grid& grid);

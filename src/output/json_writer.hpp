@@ -55,9 +55,11 @@ class JsonWriter {
  public:
   enum class Layout : bool { lines, compact };
 
-  /// `sink` must outlive it.
-  explicit JsonWriter(const TextSink& sink, Layout layout = Layout::lines)
-      : sink_(sink), is_compact_(layout == Layout::compact) {}
+  /// `sink` must outlive it. `points`: where the points of curves go, x and y by turns, if not into
+  /// the text, which then has their place: {"at": 0, "count": 12}.
+  explicit JsonWriter(const TextSink& sink, Layout layout = Layout::lines,
+                      std::vector<double>* points = nullptr)
+      : sink_(sink), is_compact_(layout == Layout::compact), points_(points) {}
 
   template <class Type>
   void value(const Type& value) {
@@ -89,6 +91,8 @@ class JsonWriter {
       std::visit([&](const auto& held) { alternative(held); }, value);
     } else if constexpr (is_a<Type, RowsOf>) {
       rows(value);
+    } else if constexpr (IsCurve<Type>) {
+      points_ != nullptr ? place_of(value) : list(value);
     } else {
       list(value);
     }
@@ -187,6 +191,15 @@ class JsonWriter {
     }
   }
 
+  template <class Curve>
+  void place_of(const Curve& curve) {
+    object([&] {
+      member("at", points_->size());
+      for (const auto& point : curve) points_->insert(points_->end(), {point.x, point.y});
+      member("count", 2 * curve.size());
+    });
+  }
+
   /// All numbers and words of a struct, those of structs within it in their places.
   template <class Struct, class Visit>
   static void for_each_leaf(const Struct& value, const Visit& visit) {
@@ -227,6 +240,7 @@ class JsonWriter {
 
   const TextSink& sink_;
   bool is_compact_;
+  std::vector<double>* points_;
   std::size_t depth_ = 0;
   bool is_empty_ = true;  ///< nothing stands yet within the innermost bracket
 };
@@ -252,12 +266,12 @@ void write_document(const Document& document, const TextSink& sink) {
   sink("\n");
 }
 
-/// In one line.
+/// In one line; `points` as of JsonWriter.
 template <class Type>
-std::string json_of(const Type& value) {
+std::string json_of(const Type& value, std::vector<double>* points = nullptr) {
   std::string text;
   const TextSink sink = [&](std::string_view part) { text += part; };
-  JsonWriter(sink, JsonWriter::Layout::compact).value(value);
+  JsonWriter(sink, JsonWriter::Layout::compact, points).value(value);
   return text;
 }
 

@@ -1,6 +1,7 @@
 // What is known of the members of structs. records/make writes it from their headers.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <string>
 #include <tuple>
@@ -46,6 +47,12 @@ template <class Type>
 concept IsDocument = requires { Record<Type>::document; };
 template <class Type>
 concept IsWord = requires { Words<Type>::all; };
+
+template <class Type>
+concept IsCurve = requires(const Type& points) {
+  { points.front().x } -> std::convertible_to<double>;
+  { points.front().y } -> std::convertible_to<double>;
+};
 
 template <class Type, template <class...> class Template>
 inline constexpr bool is_a = false;

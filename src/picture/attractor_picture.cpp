@@ -112,15 +112,23 @@ Motion motion_of_irregular(const drive::ReducedDrive& reduced,
 
 }  // namespace
 
+Motion motion_from(const drive::ReducedDrive& reduced, const drive::ShaftStates& start,
+                   double until, std::size_t most_events) {
+  drive::DriveSystem system = drive::drive_system(reduced);
+  hybrid::Trajectory trajectory =
+      hybrid::simulate(system.system, drive::drive_start(reduced, system, start),
+                       {.until = until, .event_limit = most_events});
+  return motion_of(std::move(system), std::move(trajectory));
+}
+
 MotionPicture hunting_picture(const std::string& title, const Drive& drive,
                               const drive::ReducedDrive& reduced,
                               const drive::AttractorSearch& search, const AngleUnit& angle) {
   constexpr double swings = 10.0;
   constexpr double periods = 8.0;
-  constexpr std::size_t most_events = 200'000;  // ticks included
+  constexpr std::size_t most_events = 200'000;
   MotionPicture picture{.title = title, .drive = drive, .angle = angle};
   const Seen seen = seen_in(search);
-  drive::DriveSystem system = drive::drive_system(reduced);
   const drive::Outcome* outcome =
       start_to_show(search, seen, drive::value_at(reduced.reference, 0.0));
   const drive::ShaftStates start = outcome != nullptr ? outcome->start : drive::ShaftStates{};
@@ -131,10 +139,7 @@ MotionPicture hunting_picture(const std::string& title, const Drive& drive,
   const double until =
       std::max({swings * picture.period, seen.approach + periods * seen.period,
                 runs_away ? std::min(outcome->watched, longest) : 0.0});  // so that it shows
-  hybrid::Trajectory trajectory =
-      hybrid::simulate(system.system, drive::drive_start(reduced, system, start),
-                       {.until = until, .event_limit = most_events});
-  picture.motions.push_back({.motion = motion_of(std::move(system), std::move(trajectory))});
+  picture.motions.push_back({.motion = motion_from(reduced, start, until, most_events)});
   picture.subtitle = "from " + angle_text(start.load_position, angle, digits) + ", at rest";
   return picture;
 }

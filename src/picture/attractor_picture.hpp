@@ -8,6 +8,10 @@
 
 namespace gearlash {
 
+/// The motion from that start. `most_events` counts ticks too.
+Motion motion_from(const drive::ReducedDrive& reduced, const drive::ShaftStates& start,
+                   double until, std::size_t most_events);
+
 /// Draws the results of a search in `reduced`, which is `drive` with its signals settled. Positions
 /// are measured from the reference.
 MotionPicture attractor_picture(const std::string& title, const Drive& drive,

@@ -51,69 +51,62 @@ bool is_amplitude(Quantity quantity) {
   return quantity == Quantity::amplitude || quantity == Quantity::motor_amplitude;
 }
 
-/// The picture's numbers.
-struct Scale {
+/// How values become places in the picture.
+struct Drawing {
   Quantity quantity{};
   double per_value = 1.0;      ///< of the quantity's SI unit
   double per_parameter = 1.0;  ///< of the axis's
-  bool is_logarithmic = false;
-  double foot = 0.0;  ///< lower end of the vertical axis
-  double top = 1.0;
+  PlotAxis y{};
 
+  double foot() const { return y.low.value(); }
+  MapPoint at(double parameter, double value) const {
+    return {parameter / per_parameter, std::max(value, foot())};
+  }
   double value(const CycleAt& cycle) const { return value_of(cycle, quantity).value() / per_value; }
-  double parameter(double si) const { return si / per_parameter; }
-  /// Share of the vertical axis.
-  double height(double value) const {
-    if (!is_logarithmic) return (value - foot) / (top - foot);
-    return std::log(std::max(value, foot) / foot) / std::log(top / foot);
+  double value(const IrregularAt& motion) const {
+    return (quantity == Quantity::amplitude ? motion.amplitude : motion.motor_amplitude) /
+           per_value;
   }
 };
 
-Scale scale_of(const BifurcationDiagram& diagram, const Grid& grid, Quantity quantity,
-               const AngleUnit& angle) {
-  Scale scale{.quantity = quantity};
-  scale.per_value = drawn_unit(quantity, grid, angle);
-  scale.per_parameter = drawn_unit(grid.axes.front(), grid.drive, angle);
+Drawing drawing_of(const BifurcationDiagram& diagram, const Grid& grid, Quantity quantity,
+                   const AngleUnit& angle) {
+  Drawing drawing{.quantity = quantity,
+                  .per_value = drawn_unit(quantity, grid, angle).size,
+                  .per_parameter = drawn_unit(grid.axes.front(), grid.drive, angle).size,
+                  .y = plot_axis(quantity, grid, angle)};
   Extent values;
   const auto include = [&](double value) {
     if (std::isfinite(value) && value > 0.0) values.include(value);
   };
   for (const CycleBranch& branch : diagram.branches) {
-    for (const CycleAt& point : branch.points) include(scale.value(point));
+    for (const CycleAt& point : branch.points) include(drawing.value(point));
   }
-  for (const IrregularAt& motion : diagram.irregular) {
-    if (!is_amplitude(quantity)) break;
-    include((quantity == Quantity::amplitude ? motion.amplitude : motion.motor_amplitude) /
-            scale.per_value);
+  if (is_amplitude(quantity)) {
+    for (const IrregularAt& motion : diagram.irregular) include(drawing.value(motion));
   }
-  if (!(values.high > 0.0)) return scale;
-  constexpr double margin = 1.08;
+  const bool is_empty = !(values.high > 0.0);
   constexpr double wide = 30.0;
-  scale.top = margin * values.high;
-  scale.is_logarithmic = is_amplitude(quantity) && values.high > wide * values.low;
-  if (scale.is_logarithmic) {
-    scale.top = 1.6 * values.high;
-    scale.foot = values.low / 2.5;
-  }
-  return scale;
+  drawing.y.logarithmic = !is_empty && is_amplitude(quantity) && values.high > wide * values.low;
+  drawing.y.low = drawing.y.logarithmic ? values.low / 2.5 : 0.0;
+  drawing.y.high = is_empty ? 1.0 : drawing.y.logarithmic ? 1.6 * values.high : 1.08 * values.high;
+  return drawing;
 }
 
 void add(Layer layer, Panel& panel) {
   if (!layer.points.empty()) panel.layers.push_back(std::move(layer));
 }
 
-void add_rest(const BifurcationDiagram& diagram, const Scale& scale, Panel& panel) {
-  if (!is_amplitude(scale.quantity)) return;
+void add_rest(const BifurcationDiagram& diagram, const Drawing& drawing, Panel& panel) {
+  if (!is_amplitude(drawing.quantity)) return;
   Layer layer{.name = "can come to rest", .colour = "#8a8a8a", .width = 5.0};
   for (const Bounds& interval : diagram.rests) {
-    append(
-        {{scale.parameter(interval.low), scale.foot}, {scale.parameter(interval.high), scale.foot}},
-        layer.points);
+    append({drawing.at(interval.low, 0.0), drawing.at(interval.high, 0.0)}, layer.points);
   }
   add(std::move(layer), panel);
 }
 
-void add_branches(const BifurcationDiagram& diagram, const Scale& scale, Panel& panel) {
+void add_branches(const BifurcationDiagram& diagram, const Drawing& drawing, Panel& panel) {
   for (const Stability stability : {Stability::unstable, Stability::neutral, Stability::stable}) {
     Layer lines = style_of(stability);
     Layer marks{.kind = LayerKind::marks,  // a line of one point is invisible
@@ -124,9 +117,9 @@ void add_branches(const BifurcationDiagram& diagram, const Scale& scale, Panel& 
       if (branch.stability != stability) continue;
       append({}, lines.points);
       for (const CycleAt& point : branch.points) {
-        const double value = scale.value(point);
+        const double value = drawing.value(point);
         if (!std::isfinite(value)) continue;
-        lines.points.push_back({scale.parameter(point.parameter), std::max(value, scale.foot)});
+        lines.points.push_back(drawing.at(point.parameter, value));
         if (branch.points.size() == 1) marks.points.push_back(lines.points.back());
       }
     }
@@ -135,26 +128,26 @@ void add_branches(const BifurcationDiagram& diagram, const Scale& scale, Panel& 
   }
 }
 
-void add_irregular(const BifurcationDiagram& diagram, const Scale& scale, Panel& panel) {
-  if (!is_amplitude(scale.quantity)) return;
+void add_irregular(const BifurcationDiagram& diagram, const Drawing& drawing, Panel& panel) {
+  if (!is_amplitude(drawing.quantity)) return;
   Layer layer{.kind = LayerKind::marks,
               .name = "motion that closes no cycle",
               .mark = Mark::cross,
               .size = 0.8};
   for (const IrregularAt& motion : diagram.irregular) {
-    const double value =
-        (scale.quantity == Quantity::amplitude ? motion.amplitude : motion.motor_amplitude) /
-        scale.per_value;
-    if (!std::isfinite(value)) continue;
-    layer.points.push_back({scale.parameter(motion.parameter), std::max(value, scale.foot)});
+    const double value = drawing.value(motion);
+    if (std::isfinite(value)) layer.points.push_back(drawing.at(motion.parameter, value));
   }
   add(std::move(layer), panel);
 }
 
 /// Borders without those that another one of their word covers.
 std::vector<const MarkedBorder*> distinct(const BifurcationDiagram& diagram, const Axis& axis,
-                                          const Scale& scale) {
+                                          const Drawing& drawing) {
   constexpr double together = 0.02;  // of the axes
+  const auto height = [&](const CycleAt& cycle) {
+    return position_on(span_of(drawing.y), std::max(drawing.value(cycle), drawing.foot()));
+  };
   std::vector<const MarkedBorder*> kept;
   for (const MarkedBorder& border : diagram.borders) {
     const auto covers = [&](const MarkedBorder* other) {
@@ -163,8 +156,7 @@ std::vector<const MarkedBorder*> distinct(const BifurcationDiagram& diagram, con
               together) {
         return false;
       }
-      return !border.cycle || std::abs(scale.height(scale.value(*other->cycle)) -
-                                       scale.height(scale.value(*border.cycle))) <= together;
+      return !border.cycle || std::abs(height(*other->cycle) - height(*border.cycle)) <= together;
     };
     if (std::none_of(kept.begin(), kept.end(), covers)) kept.push_back(&border);
   }
@@ -191,20 +183,20 @@ Mark mark_of(const std::string& word) {
 }
 
 /// One legend entry for each word.
-void add_borders(const BifurcationDiagram& diagram, const Axis& axis, const Scale& scale,
+void add_borders(const BifurcationDiagram& diagram, const Axis& axis, const Drawing& drawing,
                  Panel& panel) {
   std::map<std::string, MapCurve> marks;
   std::map<std::string, MapCurve> upright;
-  for (const MarkedBorder* border : distinct(diagram, axis, scale)) {
-    const double parameter = scale.parameter(border->parameter);
+  for (const MarkedBorder* border : distinct(diagram, axis, drawing)) {
     if (!border->cycle) {
-      append({{parameter, scale.foot}, {parameter, scale.top}}, upright[border->word]);
+      append({drawing.at(border->parameter, 0.0), drawing.at(border->parameter, *drawing.y.high)},
+             upright[border->word]);
       continue;
     }
     // Rest has an amplitude, but no period.
-    const double value = scale.value(*border->cycle);
-    if (!std::isfinite(value) || (value == 0.0 && !is_amplitude(scale.quantity))) continue;
-    marks[border->word].push_back({parameter, std::max(value, scale.foot)});
+    const double value = drawing.value(*border->cycle);
+    if (!std::isfinite(value) || (value == 0.0 && !is_amplitude(drawing.quantity))) continue;
+    marks[border->word].push_back(drawing.at(border->parameter, value));
   }
   for (const auto& [word, points] : upright) {
     panel.layers.push_back(
@@ -232,15 +224,12 @@ bool has_branches(Quantity quantity) { return value_of({.period = 1.0}, quantity
 Plot bifurcation_plot(const BifurcationDiagram& diagram, const Grid& grid, Quantity quantity,
                       const AngleUnit& angle) {
   const Axis& axis = grid.axes.front();
-  const Scale scale = scale_of(diagram, grid, quantity, angle);
-  Panel panel{.x = plot_axis(axis, grid.drive, angle), .y = plot_axis(quantity, grid, angle)};
-  panel.y.logarithmic = scale.is_logarithmic;
-  panel.y.low = scale.foot;
-  panel.y.high = scale.top;
-  add_rest(diagram, scale, panel);
-  add_branches(diagram, scale, panel);
-  add_irregular(diagram, scale, panel);
-  add_borders(diagram, axis, scale, panel);
+  const Drawing drawing = drawing_of(diagram, grid, quantity, angle);
+  Panel panel{.x = plot_axis(axis, grid.drive, angle), .y = drawing.y};
+  add_rest(diagram, drawing, panel);
+  add_branches(diagram, drawing, panel);
+  add_irregular(diagram, drawing, panel);
+  add_borders(diagram, axis, drawing, panel);
   if (panel.layers.empty()) say("no cycle was found", panel);
   return plot_of(
       "Cycles over " + in_words(axis.path) + ": " + in_words(std::string(name_of(quantity))),

@@ -56,13 +56,11 @@ void explain_curves(const std::string& line, const std::string& mark, double mar
 }
 
 void say(const std::string& reason, Panel& panel) {
-  const auto middle = [](const Bounds& ends, bool logarithmic) {
-    return logarithmic ? std::sqrt(ends.low * ends.high) : 0.5 * (ends.low + ends.high);
-  };
-  panel.texts.push_back({.at = {middle(drawn_x(panel).ends, panel.x.logarithmic),
-                                middle(drawn_y(panel).ends, panel.y.logarithmic)},
-                         .text = reason,
-                         .size = 1.0});
+  constexpr double middle = 0.5;
+  panel.texts.push_back(
+      {.at = {value_at(span_of(drawn_x(panel)), middle), value_at(span_of(drawn_y(panel)), middle)},
+       .text = reason,
+       .size = 1.0});
 }
 
 Panel bar_panel(const std::vector<Bar>& bars, PlotAxis values, const std::string& value_meaning,
@@ -91,7 +89,8 @@ Panel bar_panel(const std::vector<Bar>& bars, PlotAxis values, const std::string
     place -= 1.0;
   }
   panel.layers = {std::move(whole), std::move(dark)};
-  const Bounds data = drawn_x(panel).ends;
+  const PlotAxis drawn = drawn_x(panel);
+  const Bounds data{*drawn.low, *drawn.high};
   const Bounds wide = widened(data, 0.04);
   panel.x.low = data.low < 0.0 ? wide.low : 0.0;
   panel.x.high = data.high > 0.0 ? wide.high : 0.0;

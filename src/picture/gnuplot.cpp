@@ -6,7 +6,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -64,6 +63,7 @@ void fill(std::FILE* file, const std::string& text) {
 }
 
 std::string contents(std::FILE* file) {
+  std::rewind(file);
   std::string text;
   std::vector<char> block(std::size_t{1} << 16U);
   while (const std::size_t count = std::fread(block.data(), 1, block.size(), file)) {
@@ -71,17 +71,6 @@ std::string contents(std::FILE* file) {
   }
   if (std::ferror(file) != 0) refuse("its picture cannot be read: " + system_message());
   return text;
-}
-
-struct Pipe {
-  File read_end;
-  File write_end;
-};
-
-Pipe open_pipe() {
-  std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) refuse("no pipe: " + system_message());
-  return {File(fdopen(ends[0], "r")), File(fdopen(ends[1], "w"))};
 }
 
 // ---- the program --------------------------------------------------------------------------------
@@ -197,14 +186,11 @@ void set_title(std::string& picture, const std::string& title) {
 
 std::string run_gnuplot(const std::string& script, const std::string& title) {
   const File in = nameless_file();
+  const File out = nameless_file();
   const File messages = nameless_file();
   fill(in.get(), script);
-  Pipe out = open_pipe();
-  const pid_t process = spawn(in.get(), out.write_end.get(), messages.get());
-  out.write_end.reset();  // so that the pipe ends with gnuplot
-  std::string picture = contents(out.read_end.get());
-  const int status = exit_status_of(process);
-  std::rewind(messages.get());
+  const int status = exit_status_of(spawn(in.get(), out.get(), messages.get()));
+  std::string picture = contents(out.get());
   const auto with_reason = [&](const std::string& fault) {
     const std::string said = contents(messages.get());
     return said.empty() ? fault : fault + ": " + shown(said, 200);

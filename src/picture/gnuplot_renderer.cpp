@@ -89,8 +89,8 @@ constexpr double letter = 8.6;
 /// A panel with its place on the page.
 struct PlacedPanel {
   const Panel& panel;
-  DrawnAxis x;
-  DrawnAxis y;
+  PlotAxis x;  ///< as drawn
+  PlotAxis y;
   double left;
   double right;
   double top;  ///< from the page's top
@@ -217,10 +217,9 @@ std::string heading(const Page& page) {
 }
 
 /// `name` is 'x' or 'y'.
-std::string axis_commands(char name, const PlotAxis& axis, const DrawnAxis& drawn, bool is_numbered,
-                          bool is_slanted) {
+std::string axis_commands(char name, const PlotAxis& axis, bool is_numbered, bool is_slanted) {
   std::vector<std::string> tics;
-  for (const Tic& tic : drawn.tics) {
+  for (const Tic& tic : axis.tics) {
     tics.push_back(fmt::format("{} {:.9g}{}", quoted(is_numbered ? tic.text : ""), tic.at,
                                tic.text.empty() ? " 1" : ""));
   }
@@ -228,7 +227,7 @@ std::string axis_commands(char name, const PlotAxis& axis, const DrawnAxis& draw
       fmt::format("set grid {}tics linewidth 0.5 linecolor rgb '#c4c4c4'\n", name);
   return fmt::format(
       "set {0}range [{1:.9g}:{2:.9g}]\n{3}set logscale {0}\nset {0}tics {4} ({5})\n{6}", name,
-      drawn.ends.low, drawn.ends.high, axis.logarithmic ? "" : "un",
+      *axis.low, *axis.high, axis.logarithmic ? "" : "un",
       is_slanted ? "rotate by 35 right" : "norotate", fmt::join(tics, ", "),
       axis.has_grid ? grid : "");
 }
@@ -240,7 +239,7 @@ std::string axis_labels(const PlacedPanel& placed) {
       placed.left - from_numbers - letter * static_cast<double>(longest(placed.y.tics));
   return fmt::format(
       "set xlabel {}\nset label {} at screen {:.4f}, graph 0.5 center rotate by 90\n",
-      quoted(placed.is_last ? placed.x.label : ""), quoted(placed.y.label), left / page_width);
+      quoted(placed.is_last ? placed.x.name : ""), quoted(placed.y.name), left / page_width);
 }
 
 /// How gnuplot draws the layer, from its colour on.
@@ -255,20 +254,16 @@ std::string style_of(const Layer& layer) {
     case LayerKind::marks:
       return fmt::format("points pointtype {} pointsize {} linewidth 1.4 linecolor rgb '{}'",
                          static_cast<int>(layer.mark) + 1, layer.size, layer.colour);
-    case LayerKind::hatching:
-      return fmt::format("lines linewidth 0.6 linecolor rgb '{}'", layer.colour);
   }
   return "";
 }
 
 std::string legend_entry(const Layer& layer) {
-  std::string style = style_of(layer);
-  if (layer.kind == LayerKind::area) {
-    style = fmt::format("boxes fillstyle solid border linecolor rgb '#a0a0a0' fillcolor rgb '{}'",
-                        layer.colour);
-  } else if (layer.kind == LayerKind::hatching) {
-    style = fmt::format("boxes fillstyle pattern 5 noborder linecolor rgb '{}'", layer.colour);
-  }
+  const std::string style =
+      layer.kind == LayerKind::area
+          ? fmt::format("boxes fillstyle solid border linecolor rgb '#a0a0a0' fillcolor rgb '{}'",
+                        layer.colour)
+          : style_of(layer);
   return "keyentry with " + style + " title " + quoted(layer.name);
 }
 
@@ -301,8 +296,8 @@ std::string panel_commands(const PlacedPanel& placed, std::size_t number, double
                            "set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n",
                            placed.left / page_width, placed.right / page_width,
                            1.0 - placed.top / height, 1.0 - placed.bottom() / height) +
-                       axis_commands('x', panel.x, placed.x, placed.is_last, placed.is_slanted()) +
-                       axis_commands('y', panel.y, placed.y, true, false) + axis_labels(placed);
+                       axis_commands('x', placed.x, placed.is_last, placed.is_slanted()) +
+                       axis_commands('y', placed.y, true, false) + axis_labels(placed);
   if (!panel.title.empty()) {
     script += fmt::format("set label {} at graph 0.5, graph 1 center offset 0,0.7\n",
                           quoted(panel.title, "/*0.87"));

@@ -77,8 +77,8 @@ Plot chart_plot(const GridTable& table, Quantity quantity) {
   const Grid& grid = table.grid;
   const Family family(grid);
   const Axis& x = grid.axes.back();
-  const double x_unit = drawn_unit(x, grid.drive, table.angle);
-  const double y_unit = drawn_unit(quantity, grid, table.angle);
+  const double x_unit = drawn_unit(x, grid.drive, table.angle).size;
+  const double y_unit = drawn_unit(quantity, grid, table.angle).size;
   const std::size_t count = grid.axes.size() == 1 ? 1 : grid.axes.front().values.size();
   std::vector<NamedCurve> curves;
   double lowest = 0.0;

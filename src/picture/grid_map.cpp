@@ -9,11 +9,9 @@
 
 #include "picture/curve_panel.hpp"
 #include "picture/grid_words.hpp"
-#include "picture/hatching.hpp"
 #include "picture/paper.hpp"
 #include "question/family/evaluation.hpp"
 #include "question/map/contours.hpp"
-#include "question/map/hunting_boundary.hpp"
 
 namespace gearlash {
 namespace {
@@ -27,7 +25,7 @@ const Layer ceiling_style{.colour = "#7b3294", .width = 1.0, .dashes = "2,3"};
 
 /// Round in the drawn unit.
 std::vector<double> levels_of(const GridTable& table, Quantity quantity) {
-  const double unit = drawn_unit(quantity, table.grid, table.angle);
+  const double unit = drawn_unit(quantity, table.grid, table.angle).size;
   std::vector<double> motions(table.table.rows());
   for (std::size_t row = 0; row < motions.size(); ++row) {
     motions[row] = motion_value(table.table, quantity, row) / unit;
@@ -40,7 +38,7 @@ std::vector<double> levels_of(const GridTable& table, Quantity quantity) {
 
 /// With their levels in the drawn unit.
 std::vector<Contour> drawn_contours(const GridTable& table, Quantity quantity) {
-  const double unit = drawn_unit(quantity, table.grid, table.angle);
+  const double unit = drawn_unit(quantity, table.grid, table.angle).size;
   const std::vector<double> levels = levels_of(table, quantity);
   std::vector<double> in_table;
   for (const double level : levels) in_table.push_back(level * unit);
@@ -81,29 +79,34 @@ std::optional<MapPoint> mark_of(const GridTable& table) {
   return is_on_map ? table.present : std::nullopt;
 }
 
-/// The points that are needed on paper.
-MapCurve seen(const MapCurve& curve, const Paper& paper) {
-  return paper.on_map(thinned(paper.on_paper(curve)));
-}
+/// A map on paper, from the units of its table, SI, to those that are drawn.
+struct MapPaper {
+  Paper table;
+  Paper drawn;
+
+  PaperLine on_paper(const MapCurve& curve) const { return thinned(table.on_paper(curve)); }
+  /// The points that are needed.
+  MapCurve seen(const MapCurve& curve) const { return drawn.on_map(on_paper(curve)); }
+};
 
 void add_line(const std::string& name, const std::vector<MapCurve>& curves, Layer style,
-              const Paper& paper, Panel& panel) {
-  for (const MapCurve& curve : curves) append(seen(curve, paper), style.points);
+              const MapPaper& paper, Panel& panel) {
+  for (const MapCurve& curve : curves) append(paper.seen(curve), style.points);
   style.name = name;
   if (!curves.empty()) panel.layers.push_back(std::move(style));
 }
 
 /// The regions, the largest outline first: what lies in a hole of one covers it.
-void add_regions(const GridTable& table, const Paper& paper, Panel& panel) {
+void add_regions(const std::vector<MapRegion>& regions, const MapPaper& paper, Panel& panel) {
   std::vector<std::pair<double, Layer>> layers;
-  for (const MapRegion& region : *table.regions) {
+  for (const MapRegion& region : regions) {
     for (const MapCurve& outline : region.outlines) {
-      const double area = area_within(paper.on_paper(outline));
+      const double area = area_within(paper.table.on_paper(outline));
       if (!(area > 0.0)) continue;  // a hole
       layers.emplace_back(area, Layer{.kind = LayerKind::area,
                                       .name = std::string(name_of(region.kind)),
                                       .colour = colour_of(region.kind),
-                                      .points = seen(outline, paper)});
+                                      .points = paper.seen(outline)});
     }
   }
   std::stable_sort(layers.begin(), layers.end(),
@@ -111,30 +114,9 @@ void add_regions(const GridTable& table, const Paper& paper, Panel& panel) {
   for (auto& [area, layer] : layers) panel.layers.push_back(std::move(layer));
 }
 
-/// Hatches where there is no limit cycle, and doubly where there is none for any restitution.
-void add_hatching(const GridTable& table, const Paper& paper, Panel& panel) {
-  const auto add = [&](const std::string& name, const char* colour,
-                       const std::vector<MapCurve>& lines) {
-    if (lines.empty()) return;
-    panel.layers.push_back(
-        {.kind = LayerKind::hatching, .name = name, .colour = colour, .points = joined(lines)});
-  };
-  add("no limit cycle", "#a8a8a8", hatching(table, paper));
-  if (!table.dissipative_boundary) return;
-  const Family family(table.grid);
-  const auto is_dissipative = [&](const MapPoint& middle) {
-    return side_of_dissipation(servo_at(family, middle)) == Side::outside;
-  };
-  const std::string name = "none, any restitution";
-  const std::vector<MapCurve> inner =
-      hatching(*table.dissipative_boundary, paper, {.stretch = is_dissipative}, HatchLines::second);
-  add(name, "#6e6e6e", inner);
-  add_line(inner.empty() ? name : "", *table.dissipative_boundary, inner_style, paper, panel);
-}
-
 /// The contours from light to dark, with numbers in their longer parts.
 void add_contours(const std::vector<Contour>& contours, const std::string& name, bool is_proved,
-                  const Paper& paper, TextPlacer& placer, Panel& panel) {
+                  const MapPaper& paper, TextPlacer& placer, Panel& panel) {
   for (std::size_t i = 0; i < contours.size(); ++i) {
     const double share = contours.size() < 2
                              ? 1.0
@@ -143,15 +125,15 @@ void add_contours(const std::vector<Contour>& contours, const std::string& name,
         is_proved ? ceiling_style : Layer{.colour = mixed(light, dark, share), .width = 1.3};
     if (i == contours.size() / 2) layer.name = name;
     for (const MapCurve& curve : contours[i].curves) {
-      const PaperLine line = thinned(paper.on_paper(curve));
+      const PaperLine line = paper.on_paper(curve);
       if (length_of(line) <= shortest_drawn) continue;  // would be clutter
       PlotText number{.text = fmt::format("{:.4g}", contours[i].level)};
       const auto place = placer.along(line, number.text, number.size);
       for (const PaperLine& part : place ? place->parts : std::vector<PaperLine>{line}) {
-        append(paper.on_map(part), layer.points);
+        append(paper.drawn.on_map(part), layer.points);
       }
       if (!place) continue;
-      number.at = paper.on_map(place->centre);
+      number.at = paper.drawn.on_map(place->centre);
       number.slope = place->slope;
       panel.texts.push_back(std::move(number));
     }
@@ -160,7 +142,7 @@ void add_contours(const std::vector<Contour>& contours, const std::string& name,
 }
 
 void add_all_contours(const GridTable& table, Quantity quantity,
-                      const std::vector<MapCurve>& boundary, const Paper& paper, Panel& panel) {
+                      const std::vector<MapCurve>& borders, const MapPaper& paper, Panel& panel) {
   const std::vector<Contour> contours = drawn_contours(table, quantity);
   std::vector<Contour> ceilings;
   const std::optional<Quantity> ceiling = ceiling_over(quantity);
@@ -170,69 +152,63 @@ void add_all_contours(const GridTable& table, Quantity quantity,
   std::vector<PaperLine> lines;
   const auto avoid = [&](const std::vector<MapCurve>& curves) {
     for (const MapCurve& curve : curves) {
-      PaperLine line = thinned(paper.on_paper(curve));
+      PaperLine line = paper.on_paper(curve);
       if (length_of(line) > shortest_drawn) lines.push_back(std::move(line));
     }
   };
-  avoid(boundary);
-  if (const auto mark = mark_of(table)) lines.push_back({paper.on_paper(*mark)});
+  avoid(borders);
+  if (const auto mark = mark_of(table)) lines.push_back({paper.table.on_paper(*mark)});
   for (const Contour& contour : contours) avoid(contour.curves);
   for (const Contour& contour : ceilings) avoid(contour.curves);
   TextPlacer placer(std::move(lines), panel.height);
-  const std::string name =
-      table.regions ? in_words(std::string(gearlash::name_of(quantity))) : "contours";
-  add_contours(contours,
-               table.target ? name + unit_in_brackets(quantity, table.grid, table.angle) : name,
-               false, paper, placer, panel);
+  const std::string unit =
+      table.target ? unit_in_brackets(quantity, table.grid, table.angle) : std::string();
+  add_contours(contours, in_words(std::string(name_of(quantity))) + unit, false, paper, placer,
+               panel);
   add_contours(ceilings, "ceiling, proved", true, paper, placer, panel);
 }
 
-/// In the units of the table's grid, SI.
-Panel panel_of(const GridTable& table, Quantity quantity) {
-  const Grid& grid = table.grid;
-  Panel panel{.x = plot_axis(grid.axes[1], grid.drive, {}),
-              .y = plot_axis(grid.axes[0], grid.drive, {})};
+Panel panel_of(const Grid& grid, const AngleUnit& angle) {
+  Panel panel{.x = plot_axis(grid.axes[1], grid.drive, angle),
+              .y = plot_axis(grid.axes[0], grid.drive, angle)};
   panel.x.has_grid = panel.y.has_grid = false;
-  const Paper paper(panel);
-  if (table.regions) {
-    add_regions(table, paper, panel);
-    const bool is_limit =
-        table.target && (table.target->no_hunting || table.target->no_hunting_if_disturbed);
-    if (table.target && !is_limit) {
-      add_line("hunting ends", *table.hunting_boundary, inner_style, paper, panel);
-    }
-  } else {
-    add_hatching(table, paper, panel);
-  }
-  const std::vector<MapCurve> boundary =
-      table.regions ? borders_of(*table.regions, grid) : table.hunting_boundary.value();
-  add_all_contours(table, quantity, boundary, paper, panel);
-  add_line(!table.regions ? "hunting ends"
-           : table.target ? "limit"
-                          : "border",
-           boundary, boundary_style, paper, panel);
-  if (const auto mark = mark_of(table)) {
-    panel.layers.push_back(
-        {.kind = LayerKind::marks, .name = "now", .size = 1.0, .points = {*mark}});
-  }
   return panel;
+}
+
+/// Where hunting ends beside a target, and where energy alone forbids it.
+void add_inner_borders(const GridTable& table, const MapPaper& paper, Panel& panel) {
+  if (!table.target) {
+    add_line("border of rest for any restitution",
+             table.dissipative_boundary.value_or(std::vector<MapCurve>{}), inner_style, paper,
+             panel);
+  } else if (!table.target->no_hunting && !table.target->no_hunting_if_disturbed) {
+    add_line("hunting ends", table.hunting_boundary.value(), inner_style, paper, panel);
+  }
 }
 
 Plot contour_plot(const GridTable& table, Quantity quantity) {
   const Grid& grid = table.grid;
-  Panel panel = panel_of(table, quantity);
-  const auto set_axis = [&](std::size_t axis, PlotAxis& drawn) {
-    drawn = plot_axis(grid.axes[axis], grid.drive, table.angle);
-    drawn.has_grid = false;
-    return drawn_unit(grid.axes[axis], grid.drive, table.angle);
-  };
-  const double x_unit = set_axis(1, panel.x);
-  const double y_unit = set_axis(0, panel.y);
-  const auto draw_in_units = [&](MapPoint& point) { point = {point.x / x_unit, point.y / y_unit}; };
-  for (Layer& layer : panel.layers) {
-    std::for_each(layer.points.begin(), layer.points.end(), draw_in_units);
+  Panel panel = panel_of(grid, table.angle);
+  const MapPaper paper{Paper(panel_of(grid, {})), Paper(panel)};
+  const std::vector<MapRegion> regions = table.regions       ? *table.regions
+                                         : has_regions(grid) ? regions_of(table)
+                                                             : std::vector<MapRegion>{};
+  const std::vector<MapCurve> borders = borders_of(regions, grid);
+  add_regions(regions, paper, panel);
+  add_inner_borders(table, paper, panel);
+  add_all_contours(table, quantity, borders, paper, panel);
+  add_line(table.target    ? "limit"
+           : table.regions ? "border"
+                           : "hunting ends",
+           borders, boundary_style, paper, panel);
+  if (const auto mark = mark_of(table)) {
+    const double x_unit = drawn_unit(grid.axes[1], grid.drive, table.angle).size;
+    const double y_unit = drawn_unit(grid.axes[0], grid.drive, table.angle).size;
+    panel.layers.push_back({.kind = LayerKind::marks,
+                            .name = "now",
+                            .size = 1.0,
+                            .points = {{mark->x / x_unit, mark->y / y_unit}}});
   }
-  for (PlotText& text : panel.texts) draw_in_units(text.at);
   return plot_of(table.target ? "Target: " + table.target_text
                               : title_of(quantity) + unit_in_brackets(quantity, grid, table.angle),
                  subtitle_of(grid), std::move(panel));
@@ -254,7 +230,7 @@ Plot cell_plot(const GridTable& table, Quantity quantity) {
   for (const double value : y.values) {
     cells.rows.push_back(short_text(y, grid.drive, value, table.angle));
   }
-  const double unit = drawn_unit(quantity, grid, table.angle);
+  const double unit = drawn_unit(quantity, grid, table.angle).size;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < y.values.size(); ++i) {
     std::vector<double>& row = cells.values.emplace_back();
@@ -274,8 +250,7 @@ Plot cell_plot(const GridTable& table, Quantity quantity) {
   if (least > 0.0 && cells.largest > far * least) cells.least = least;
   if (cells.largest == 0.0) cells.largest = 1.0;
   const auto label = [&](const Axis& axis) {
-    const PlotAxis drawn = plot_axis(axis, grid.drive, table.angle);
-    return drawn.unit.empty() ? drawn.name : drawn.name + " (" + drawn.unit + ")";
+    return label_of(plot_axis(axis, grid.drive, table.angle));
   };
   return plot_of(title_of(quantity) + unit_in_brackets(quantity, grid, table.angle),
                  subtitle_of(grid) + "; empty: not known", cell_panel(cells, label(x), label(y)));

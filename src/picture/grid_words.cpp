@@ -23,29 +23,27 @@ bool in_backlashes(const Grid& grid) {
          !is_varied(grid, "servo.backlash");
 }
 
-bool is_angle(Quantity quantity) { return info_of(quantity).unit == "rad"; }
-
-/// The unit in a picture: backlashes, or with ω_n and K if these are 1.
-std::string unit_of(Quantity quantity, const Grid& grid, const AngleUnit& angle) {
-  std::string unit(info_of(quantity).unit);
-  const bool is_free = in_backlashes(grid);
-  if (is_angle(quantity)) return is_free ? "backlashes" : angle.name;
-  if (!is_normalized(grid.drive)) return unit;
-  if (unit == "s") return "1/ω_n";
-  if (unit == "Hz") return "ω_n";
-  if (unit == "rad/s") return is_free ? "backlashes × ω_n" : "rad ω_n";
-  if (unit == "J") return is_free ? "K × backlash²" : "K rad²";
-  return unit;
-}
-
-/// Empty for words and pure numbers.
-std::string name_of_unit(const Axis& axis, const Drive& drive, const AngleUnit& angle) {
-  std::string unit = unit_of(axis, drive);
-  if (unit == "rad") return angle.name;
-  return unit == "1" ? "" : unit;
-}
-
 }  // namespace
+
+DrawnUnit drawn_unit(Quantity quantity, const Grid& grid, const AngleUnit& angle) {
+  const std::string unit(info_of(quantity).unit);
+  const bool is_free = in_backlashes(grid);
+  if (unit == "rad")
+    return is_free ? DrawnUnit{"backlashes"} : DrawnUnit{angle.name, angle.radians};
+  if (unit == "1") return {};
+  if (!is_normalized(grid.drive)) return {unit};
+  if (unit == "s") return {"1/ω_n"};
+  if (unit == "Hz") return {"ω_n"};
+  if (unit == "rad/s") return {is_free ? "backlashes × ω_n" : "rad ω_n"};
+  if (unit == "J") return {is_free ? "K × backlash²" : "K rad²"};
+  return {unit};
+}
+
+DrawnUnit drawn_unit(const Axis& axis, const Drive& drive, const AngleUnit& angle) {
+  const std::string unit = unit_of(axis, drive);
+  if (unit == "rad") return {angle.name, angle.radians};
+  return {unit == "1" ? "" : unit};
+}
 
 std::string subtitle_of(const Grid& grid) {
   if (Family(grid).engines().search) return certainty_of(grid);
@@ -75,41 +73,34 @@ std::string title_of(Quantity quantity) {
 }
 
 PlotAxis plot_axis(Quantity quantity, const Grid& grid, const AngleUnit& angle) {
-  const std::string unit = unit_of(quantity, grid, angle);
-  return {.name = in_words(std::string(name_of(quantity))), .unit = unit == "1" ? "" : unit};
+  return {.name = in_words(std::string(name_of(quantity))),
+          .unit = drawn_unit(quantity, grid, angle).name};
 }
 
 std::string unit_in_brackets(Quantity quantity, const Grid& grid, const AngleUnit& angle) {
-  const std::string unit = plot_axis(quantity, grid, angle).unit;
+  const std::string unit = drawn_unit(quantity, grid, angle).name;
   return unit.empty() ? "" : " (" + unit + ")";
-}
-
-double drawn_unit(Quantity quantity, const Grid& grid, const AngleUnit& angle) {
-  return is_angle(quantity) && !in_backlashes(grid) ? angle.radians : 1.0;
 }
 
 bool has_words(const Axis& axis, const Drive& drive) { return unit_of(axis, drive).empty(); }
 
-double drawn_unit(const Axis& axis, const Drive& drive, const AngleUnit& angle) {
-  return unit_of(axis, drive) == "rad" ? angle.radians : 1.0;
-}
-
 std::string short_text(const Axis& axis, const Drive& drive, double value, const AngleUnit& angle) {
-  return has_words(axis, drive) ? text_of(axis, drive, value)
-                                : fmt::format("{:.4g}", value / drawn_unit(axis, drive, angle));
+  return has_words(axis, drive)
+             ? text_of(axis, drive, value)
+             : fmt::format("{:.4g}", value / drawn_unit(axis, drive, angle).size);
 }
 
 std::string text_with_unit(const Axis& axis, const Drive& drive, double value,
                            const AngleUnit& angle) {
-  const std::string unit = name_of_unit(axis, drive, angle);
+  const std::string unit = drawn_unit(axis, drive, angle).name;
   return short_text(axis, drive, value, angle) + (unit.empty() ? "" : " " + unit);
 }
 
 PlotAxis plot_axis(const Axis& axis, const Drive& drive, const AngleUnit& angle) {
+  const auto [unit, per] = drawn_unit(axis, drive, angle);
   PlotAxis drawn{.name = in_words(axis.path),
-                 .unit = name_of_unit(axis, drive, angle),
+                 .unit = unit,
                  .logarithmic = axis.logarithmic && axis.values.size() > 1};
-  const double per = drawn_unit(axis, drive, angle);
   const auto [low, high] = std::minmax_element(axis.values.begin(), axis.values.end());
   drawn.low = *low / per;
   drawn.high = *high / per;

@@ -38,6 +38,7 @@ struct DrawnMotion {
   std::string name{};  ///< follows "load" and "motor" in the legend: "stable cycle ±0.5 deg"
   std::string name_of_motor{};  ///< follows "motor" instead, unless empty
   bool is_cycle = false;        ///< one period, drawn closed
+  double from = 0.0;            ///< s, where a phase plane begins
   MotionRole role = MotionRole::subject;
 };
 

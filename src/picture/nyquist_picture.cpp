@@ -10,6 +10,7 @@
 #include <numbers>
 #include <optional>
 
+#include "base/extent.hpp"
 #include "base/overloaded.hpp"
 #include "output/describe_report.hpp"
 #include "picture/paper.hpp"
@@ -28,36 +29,22 @@ constexpr int label_digits = 3;
 
 // ---- the complex plane --------------------------------------------------------------------------
 
-/// The visible part. Both axes have the same scale.
-struct Window {
-  Complex corner;      ///< lower left
-  double scale = 1.0;  ///< pixels for 1
-  Complex size;        ///< pixels
-
-  Complex on_paper(const Complex& point) const { return (point - corner) * scale; }
-  Complex from_paper(const Complex& place) const { return corner + place / scale; }
-  /// `margin`: pixels.
-  bool holds(const Complex& point, double margin = 0.0) const {
-    const Complex place = on_paper(point);
-    return place.real() >= -margin && place.real() <= size.real() + margin &&
-           place.imag() >= -margin && place.imag() <= size.imag() + margin;
-  }
-};
-
-/// The window of that size around the points with a margin, larger on the left, where L comes from.
-Window window_around(const std::vector<Complex>& points, const Complex& size) {
-  Complex low = points.front();
-  Complex high = points.front();
+/// The ends of the axes around the points with a margin, larger on the left, where L comes from.
+/// Both axes have the same scale.
+void show(const std::vector<Complex>& points, Panel& panel) {
+  Extent real;
+  Extent imaginary;
   for (const Complex& point : points) {
-    low = {std::min(low.real(), point.real()), std::min(low.imag(), point.imag())};
-    high = {std::max(high.real(), point.real()), std::max(high.imag(), point.imag())};
+    real.include(point.real());
+    imaginary.include(point.imag());
   }
-  const Complex extent = high - low;
   constexpr double filled = 0.68;  // share of the frame
-  const double scale =
-      filled / std::max({extent.imag() / size.imag(), extent.real() / size.real(), 1e-300});
-  const Complex spare = size / scale - extent;
-  return {low - Complex{0.65 * spare.real(), 0.5 * spare.imag()}, scale, size};
+  const double pixel =
+      std::max({imaginary.width() / panel.height, real.width() / panel_width, 1e-300}) / filled;
+  const double left = real.low - 0.65 * (panel_width * pixel - real.width());
+  const double below = imaginary.low - 0.5 * (panel.height * pixel - imaginary.width());
+  panel.x = {.name = "real part", .low = left, .high = left + panel_width * pixel};
+  panel.y = {.name = "imaginary part", .low = below, .high = below + panel.height * pixel};
 }
 
 bool is_finite(const Complex& point) {
@@ -75,35 +62,40 @@ Complex inverse_gain(const Nonlinearity& nonlinearity, double amplitude) {
   return -1.0 / describing_gain(nonlinearity, amplitude);
 }
 
-/// The unit of amplitude marks and the amplitude at which the curve −1/N begins.
-struct AmplitudeScale {
-  double unit;
-  const char* name;
-  double least;      ///< below it N is undefined, 0 or constant
-  bool is_relative;  ///< marks are typical multiples of the unit, else round numbers
+/// The curve −1/N of a nonlinearity: its marks, and where it begins.
+struct InverseGain {
+  double unit;       ///< of marked amplitudes
+  const char* name;  ///< of the unit; empty: marks are round numbers, else typical multiples
+  const char* meaning;
+  double least;                             ///< below it N is undefined, 0 or constant
+  std::optional<double> linear_end = -1.0;  ///< its limit; nothing for a relay
 };
 
-AmplitudeScale scale_of(const Nonlinearity& nonlinearity) {
-  return std::visit(Overloaded{[](const FrictionControlledBacklash& play) -> AmplitudeScale {
-                                 return {0.5 * play.gap, "h", 0.5 * play.gap, true};
-                               },
-                               [](const InertiaControlledBacklash& play) -> AmplitudeScale {
-                                 return {0.5 * play.gap, "h", play.gap / std::numbers::pi, true};
-                               },
-                               [](const RelayWithHysteresis& relay) -> AmplitudeScale {
-                                 return {relay.half_width, "δ", relay.half_width, true};
-                               },
-                               [](const Saturation& saturation) -> AmplitudeScale {
-                                 const double linear = saturation.limit / saturation.slope;
-                                 return {linear, "T_max", linear, true};
-                               },
-                               [](const CoulombFriction&) -> AmplitudeScale {
-                                 return {1.0, "", 0.0, false};
-                               },
-                               [](const DeadZone& zone) -> AmplitudeScale {
-                                 return {zone.half_width, "h", zone.half_width, true};
-                               }},
-                    nonlinearity);
+InverseGain curve_of(const Nonlinearity& nonlinearity, bool is_normalized) {
+  constexpr const char* half_gap = ", A by half the gap, h";
+  constexpr const char* threshold = ", A by the threshold";
+  return std::visit(
+      Overloaded{
+          [](const FrictionControlledBacklash& play) -> InverseGain {
+            return {0.5 * play.gap, "h", half_gap, 0.5 * play.gap};
+          },
+          [](const InertiaControlledBacklash& play) -> InverseGain {
+            return {0.5 * play.gap, "h", half_gap, play.gap / std::numbers::pi};
+          },
+          [](const RelayWithHysteresis& relay) -> InverseGain {
+            return {relay.half_width, "δ", threshold, relay.half_width, std::nullopt};
+          },
+          [](const Saturation& saturation) -> InverseGain {
+            const double linear = saturation.limit / saturation.slope;
+            return {linear, "T_max", ", A by the limit T_max", linear, -1.0 / saturation.slope};
+          },
+          [&](const CoulombFriction&) -> InverseGain {
+            return {1.0, "", is_normalized ? ", A in rad ω_n" : ", A in rad/s", 0.0, std::nullopt};
+          },
+          [](const DeadZone& zone) -> InverseGain {
+            return {zone.half_width, "h", threshold, zone.half_width, -1.0 / zone.slope};
+          }},
+      nonlinearity);
 }
 
 // ---- key points ---------------------------------------------------------------------------------
@@ -168,19 +160,6 @@ std::vector<KeyPoint> key_points(const NyquistPicture& picture) {
   return points;
 }
 
-/// The linear limit of −1/N; nothing for a relay.
-std::optional<Complex> linear_end(const Nonlinearity& nonlinearity) {
-  if (std::holds_alternative<Saturation>(nonlinearity)) {
-    return -1.0 / std::get<Saturation>(nonlinearity).slope;
-  }
-  if (std::holds_alternative<DeadZone>(nonlinearity)) {
-    return -1.0 / std::get<DeadZone>(nonlinearity).slope;
-  }
-  const bool is_gap = std::holds_alternative<FrictionControlledBacklash>(nonlinearity) ||
-                      std::holds_alternative<InertiaControlledBacklash>(nonlinearity);
-  return is_gap ? std::optional<Complex>(-1.0) : std::nullopt;
-}
-
 /// The largest |L| at the frequencies of poles and zeros: the extent of a bounded loop.
 double extent_of(const TransferFunction& loop) {
   double extent = 0.0;
@@ -193,13 +172,12 @@ double extent_of(const TransferFunction& loop) {
   return extent > 0.0 && std::isfinite(extent) ? extent : 1.0;
 }
 
-/// The window with the origin, the linear end of −1/N, stable cycles and the exact frequency. Other
-/// points are included up to three times as far from the origin.
-Window critical_window(const NyquistPicture& picture, const std::vector<KeyPoint>& points,
-                       const Complex& size) {
+/// Around the origin, the linear end of −1/N, stable cycles and the exact frequency. Other points
+/// are included up to three times as far from the origin.
+Panel critical_panel(const NyquistPicture& picture, const std::vector<KeyPoint>& points) {
   std::vector<Complex> shown = {0.0};
   for (const DescribingAnalysis& analysis : picture.analyses) {
-    if (const auto end = linear_end(analysis.nonlinearity)) {
+    if (const auto end = curve_of(analysis.nonlinearity, picture.is_normalized).linear_end) {
       shown.push_back(*end);
       shown.push_back(1.6 * *end);  // shows some of the curve towards it
     }
@@ -225,7 +203,9 @@ Window critical_window(const NyquistPicture& picture, const std::vector<KeyPoint
   for (const KeyPoint& point : points) {
     if (is_finite(point.at) && std::abs(point.at) <= reach * radius) shown.push_back(point.at);
   }
-  return window_around(shown, size);
+  Panel panel;
+  show(shown, panel);
+  return panel;
 }
 
 // ---- marks on the curves ------------------------------------------------------------------------
@@ -258,17 +238,17 @@ std::vector<Candidate> frequencies(const NyquistPicture& picture) {
 }
 
 /// The most telling first, of −1/N.
-std::vector<Candidate> amplitudes(const DescribingAnalysis& analysis) {
-  const AmplitudeScale scale = scale_of(analysis.nonlinearity);
+std::vector<Candidate> amplitudes(const Nonlinearity& nonlinearity, const InverseGain& curve) {
+  const bool is_relative = *curve.name != '\0';
   std::vector<double> numbers = {2.0, 1.5, 1.2, 5.0, 1.1, 3.0, 1.0, 1.05, 10.0, 1.02, 1.01, 0.8};
-  if (!scale.is_relative) numbers = round_numbers();
+  if (!is_relative) numbers = round_numbers();
   std::vector<Candidate> candidates;
   for (const double number : numbers) {
-    const double amplitude = number * scale.unit;
-    if (amplitude <= scale.least) continue;
-    candidates.push_back({inverse_gain(analysis.nonlinearity, amplitude),
-                          significant(number, label_digits) +
-                              (scale.is_relative ? std::string(" ") + scale.name : "")});
+    const double amplitude = number * curve.unit;
+    if (amplitude <= curve.least) continue;
+    candidates.push_back(
+        {inverse_gain(nonlinearity, amplitude),
+         significant(number, label_digits) + (is_relative ? " " : "") + curve.name});
   }
   return candidates;
 }
@@ -284,7 +264,7 @@ struct DrawnCurve {
 /// Adds the curve's points in and near the window. The parameter runs from `low` to `high`, evenly
 /// in its logarithm.
 void trace(const std::function<Complex(double parameter)>& curve, const Bounds& range,
-           const Window& window, DrawnCurve& drawn) {
+           const Paper& paper, DrawnCurve& drawn) {
   constexpr int steps = 20'000;
   constexpr double near = 240.0;  // pixels
   constexpr double apart = 1.5;
@@ -292,66 +272,51 @@ void trace(const std::function<Complex(double parameter)>& curve, const Bounds& 
   for (int i = 0; i <= steps; ++i) {
     const Complex value =
         curve(range.low * std::pow(range.high / range.low, static_cast<double>(i) / steps));
-    if (!is_finite(value) || !window.holds(value, near)) {
+    const Complex place = paper.on_paper(map_point(value));
+    if (!is_finite(value) || !paper.holds(place, near)) {
       if (last) append({}, drawn.layer.points);
       last.reset();
       continue;
     }
-    const Complex place = window.on_paper(value);
     if (last && std::abs(place - *last) < apart) continue;
     drawn.layer.points.push_back(map_point(value));
-    if (window.holds(value)) drawn.seen.push_back(place);
+    if (paper.holds(place)) drawn.seen.push_back(place);
     last = place;
   }
 }
 
 /// −1/N, from the amplitude on at which it begins.
-void trace_inverse_gain(const Nonlinearity& nonlinearity, const Window& window, DrawnCurve& drawn) {
-  const double least = scale_of(nonlinearity).least;
+void trace_inverse_gain(const Nonlinearity& nonlinearity, double least, const Paper& paper,
+                        DrawnCurve& drawn) {
   // Without a least amplitude, −1/N is proportional to the amplitude.
-  const double size =
-      least > 0.0 ? least
-                  : window.size.imag() / window.scale / std::abs(inverse_gain(nonlinearity, 1.0));
+  const double height =
+      paper.on_map(PaperPoint(0.0, paper.height())).y - paper.on_map(PaperPoint()).y;
+  const double size = least > 0.0 ? least : height / std::abs(inverse_gain(nonlinearity, 1.0));
   trace([&](double excess) { return inverse_gain(nonlinearity, least + excess); },
-        {1e-8 * size, 1e6 * size}, window, drawn);
+        {1e-8 * size, 1e6 * size}, paper, drawn);
 }
 
-/// The unit of the amplitude marks.
-std::string meaning_of(const DescribingAnalysis& analysis, bool is_normalized) {
-  switch (analysis.part) {
-    case DescribedPart::torque_limit:
-      return ", A by the limit T_max";
-    case DescribedPart::coulomb_friction:
-      return is_normalized ? ", A in rad ω_n" : ", A in rad/s";
-    case DescribedPart::dead_band:
-    case DescribedPart::relay:
-      return ", A by the threshold";
-    default:
-      return ", A by half the gap, h";
-  }
-}
-
-std::vector<DrawnCurve> traced_curves(const NyquistPicture& picture, const Window& window) {
+std::vector<DrawnCurve> traced_curves(const NyquistPicture& picture, const Paper& paper) {
   const std::array inverse_styles = {Layer{.colour = "#d55e00", .dashes = "10,4"},
                                      Layer{.colour = "#009e73", .dashes = "4,3"},
                                      Layer{.colour = "#cc79a7", .dashes = "12,3,3,3"}};
   const TransferFunction& loop = picture.analyses.front().loop;
   std::vector<DrawnCurve> curves = {{{.name = "L(jω)", .colour = "#0072b2"}, frequencies(picture)}};
   trace([&](double frequency) { return loop_at(loop, frequency); }, natural_frequency_range(loop),
-        window, curves.front());
+        paper, curves.front());
   for (const DescribingAnalysis& analysis : picture.analyses) {
+    const InverseGain inverse = curve_of(analysis.nonlinearity, picture.is_normalized);
     DrawnCurve curve{inverse_styles[(curves.size() - 1) % inverse_styles.size()],
-                     amplitudes(analysis)};
-    curve.layer.name =
-        "−1/N(A)" + distinction(picture, analysis) + meaning_of(analysis, picture.is_normalized);
-    trace_inverse_gain(analysis.nonlinearity, window, curve);
+                     amplitudes(analysis.nonlinearity, inverse)};
+    curve.layer.name = "−1/N(A)" + distinction(picture, analysis) + inverse.meaning;
+    trace_inverse_gain(analysis.nonlinearity, inverse.least, paper, curve);
     curves.push_back(std::move(curve));
   }
   return curves;
 }
 
 /// The outline of an arrow's head towards a growing parameter, in the middle of the visible curve.
-MapCurve arrow_of(const PaperLine& seen, const Window& window) {
+MapCurve arrow_of(const PaperLine& seen, const Paper& paper) {
   constexpr std::size_t apart = 5;
   if (seen.size() < 3 * apart) return {};
   const Complex tail = seen[seen.size() * 2 / 5];
@@ -359,14 +324,18 @@ MapCurve arrow_of(const PaperLine& seen, const Window& window) {
   const Complex unit = way / std::abs(way);
   MapCurve outline;
   for (const Complex& corner : {Complex{13.0, 0.0}, Complex{0.0, 4.5}, Complex{0.0, -4.5}}) {
-    outline.push_back(map_point(window.from_paper(tail + corner * unit)));
+    outline.push_back(paper.on_map(tail + corner * unit));
   }
   return outline;
 }
 
-Layer layer_of(const KeyPoint& point, const Window& window) {
+bool is_seen(const Complex& point, const Paper& paper, double margin = 0.0) {
+  return is_finite(point) && paper.holds(paper.on_paper(map_point(point)), margin);
+}
+
+Layer layer_of(const KeyPoint& point, const Paper& paper) {
   Layer layer{.kind = LayerKind::marks, .name = point.legend, .mark = point.mark, .size = 1.0};
-  if (is_finite(point.at) && window.holds(point.at)) {
+  if (is_seen(point.at, paper)) {
     layer.points = {map_point(point.at)};
   } else {
     layer.name += is_finite(point.at) ? "; outside" : ": none, too small";
@@ -376,25 +345,26 @@ Layer layer_of(const KeyPoint& point, const Window& window) {
 
 /// Adds the marks of the curves that have room around them, and all texts.
 void add_marks(const std::vector<KeyPoint>& points, const std::vector<DrawnCurve>& curves,
-               const Window& window, Panel& panel) {
+               const Paper& paper, Panel& panel) {
   std::vector<PaperLine> lines;
   for (const DrawnCurve& curve : curves) lines.push_back(curve.seen);
-  std::vector<Complex> taken = {window.on_paper(0.0)};  // where unnumbered marks crowd
+  std::vector<Complex> taken = {paper.on_paper(MapPoint{})};  // where unnumbered marks crowd
   for (const KeyPoint& point : points) {
     if (!is_finite(point.at)) continue;
-    taken.push_back(window.on_paper(point.at));
+    taken.push_back(paper.on_paper(map_point(point.at)));
     lines.push_back({taken.back()});
   }
-  TextPlacer placer(lines, window.size.imag());
+  TextPlacer placer(lines, paper.height());
   const auto add_text = [&](const Complex& at, PlotText text) {
-    const auto place = placer.beside(window.on_paper(at), text.text, text.size, text.is_bold);
+    const auto place =
+        placer.beside(paper.on_paper(map_point(at)), text.text, text.size, text.is_bold);
     if (!place) return false;
-    text.at = map_point(window.from_paper(*place));
+    text.at = paper.on_map(*place);
     panel.texts.push_back(std::move(text));
     return true;
   };
   for (const KeyPoint& point : points) {
-    if (is_finite(point.at) && window.holds(point.at)) {
+    if (is_seen(point.at, paper)) {
       add_text(point.at, {.text = point.label, .is_bold = true});
     }
   }
@@ -403,8 +373,8 @@ void add_marks(const std::vector<KeyPoint>& points, const std::vector<DrawnCurve
   for (auto curve = curves.rbegin(); curve != curves.rend(); ++curve) {
     Layer marks{.kind = LayerKind::marks, .colour = curve->layer.colour, .size = 0.45};
     for (const Candidate& mark : curve->marks) {
-      if (!is_finite(mark.at) || !window.holds(mark.at, -margin)) continue;
-      const Complex place = window.on_paper(mark.at);
+      if (!is_seen(mark.at, paper, -margin)) continue;
+      const Complex place = paper.on_paper(map_point(mark.at));
       const bool is_clear = std::none_of(taken.begin(), taken.end(), [&](const Complex& other) {
         return std::abs(place - other) < room;
       });
@@ -437,25 +407,19 @@ std::vector<DescribingAnalysis> loop_analyses(const std::vector<DescribingAnalys
 }
 
 Plot nyquist_plot(const NyquistPicture& picture) {
-  Panel panel;
   const std::vector<KeyPoint> points = key_points(picture);
-  const Window window = critical_window(picture, points, {panel_width, panel.height});
-  const Complex opposite = window.from_paper(window.size);
-  panel.x = {.name = "real part", .low = window.corner.real(), .high = opposite.real()};
-  panel.y = {.name = "imaginary part", .low = window.corner.imag(), .high = opposite.imag()};
-  panel.layers.push_back({.colour = "#888888",
-                          .width = 0.8,
-                          .points = joined({{{*panel.x.low, 0.0}, {*panel.x.high, 0.0}},
-                                            {{0.0, *panel.y.low}, {0.0, *panel.y.high}}})});
-  const std::vector<DrawnCurve> curves = traced_curves(picture, window);
+  Panel panel = critical_panel(picture, points);
+  const Paper paper(panel);
+  panel.layers.push_back(zero_lines(panel, {.colour = "#888888", .width = 0.8}));
+  const std::vector<DrawnCurve> curves = traced_curves(picture, paper);
   for (const DrawnCurve& curve : curves) {
     if (!curve.layer.points.empty()) panel.layers.push_back(curve.layer);
     panel.layers.push_back({.kind = LayerKind::area,
                             .colour = curve.layer.colour,
-                            .points = arrow_of(curve.seen, window)});
+                            .points = arrow_of(curve.seen, paper)});
   }
-  for (const KeyPoint& point : points) panel.layers.push_back(layer_of(point, window));
-  add_marks(points, curves, window, panel);
+  for (const KeyPoint& point : points) panel.layers.push_back(layer_of(point, paper));
+  add_marks(points, curves, paper, panel);
   const bool has_exact = std::any_of(picture.exact.begin(), picture.exact.end(), is_drawn);
   return plot_of(picture.title,
                  std::string("cycles are predicted where L(jω) = −1/N(A)") +

@@ -14,19 +14,6 @@ constexpr double unseen = 0.15;
 constexpr double letter_width = 9.2;
 constexpr double half_letter = 6.5;  ///< of a text's height
 
-double share_of(const PlotAxis& axis, double value) {
-  const double low = axis.low.value();
-  const double high = axis.high.value();
-  return axis.logarithmic ? std::log(value / low) / std::log(high / low)
-                          : (value - low) / (high - low);
-}
-
-double value_at_share(const PlotAxis& axis, double share) {
-  const double low = axis.low.value();
-  const double high = axis.high.value();
-  return axis.logarithmic ? low * std::pow(high / low, share) : low + share * (high - low);
-}
-
 double distance_from_chord(const PaperPoint& point, const PaperPoint& from, const PaperPoint& to) {
   const PaperPoint chord = to - from;
   if (std::norm(chord) == 0.0) return std::abs(point - from);
@@ -100,12 +87,11 @@ PaperLine middle_of(const PaperPoint& from, const PaperPoint& to) {
 }  // namespace
 
 PaperPoint Paper::on_paper(const MapPoint& point) const {
-  return {panel_width * share_of(x_, point.x), height_ * share_of(y_, point.y)};
+  return {panel_width * position_on(x_, point.x), height_ * position_on(y_, point.y)};
 }
 
 MapPoint Paper::on_map(const PaperPoint& point) const {
-  return {value_at_share(x_, point.real() / panel_width),
-          value_at_share(y_, point.imag() / height_)};
+  return {value_at(x_, point.real() / panel_width), value_at(y_, point.imag() / height_)};
 }
 
 PaperLine Paper::on_paper(const MapCurve& curve) const {

@@ -19,17 +19,23 @@ using PaperLine = std::vector<PaperPoint>;
 class Paper {
  public:
   /// Precondition: both axes have their ends.
-  explicit Paper(const Panel& panel) : x_(panel.x), y_(panel.y), height_(panel.height) {}
+  explicit Paper(const Panel& panel)
+      : x_(span_of(panel.x)), y_(span_of(panel.y)), height_(panel.height) {}
 
   double height() const { return height_; }
+  /// Whether a place is on it; `margin` in pixels.
+  bool holds(const PaperPoint& place, double margin = 0.0) const {
+    return place.real() >= -margin && place.real() <= panel_width + margin &&
+           place.imag() >= -margin && place.imag() <= height_ + margin;
+  }
   PaperPoint on_paper(const MapPoint& point) const;
   MapPoint on_map(const PaperPoint& point) const;
   PaperLine on_paper(const MapCurve& curve) const;
   MapCurve on_map(const PaperLine& line) const;
 
  private:
-  PlotAxis x_;
-  PlotAxis y_;
+  Axis x_;
+  Axis y_;
   double height_;
 };
 

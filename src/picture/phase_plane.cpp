@@ -97,6 +97,10 @@ ShaftLine line_of(const std::vector<DrawnPiece>& pieces, ShaftAt at, const Phase
 /// one.
 std::vector<DrawnPiece> curve_of(const MotionPicture& picture, const DrawnMotion& drawn) {
   std::vector<DrawnPiece> pieces = legible_curve(picture, drawn.motion);
+  for (DrawnPiece& piece : pieces) {
+    std::erase_if(piece.points, [&](const DrawnPoint& point) { return point.time < drawn.from; });
+  }
+  std::erase_if(pieces, [](const DrawnPiece& piece) { return piece.points.empty(); });
   if (!drawn.is_cycle) return pieces;
   const DrawnPoint start = pieces.front().points.front();
   DrawnPiece& last = pieces.back();
@@ -254,9 +258,7 @@ class PhasePanel {
 
   /// Lines at 0, and a bar of the gap's width for comparison.
   void add_rulers() {
-    panel.layers.push_back(
-        {.width = 0.7,
-         .points = joined({{{x_.low, 0.0}, {x_.high, 0.0}}, {{0.0, y_.low}, {0.0, y_.high}}})});
+    panel.layers.push_back(zero_lines(panel, {.width = 0.7}));
     const double gap = picture_.angle.from_radians(reduce(picture_.drive).backlash);
     const double width = x_.high - x_.low;
     const double height = y_.high - y_.low;

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "general/attractors/search_setting.hpp"
-#include "question/motion.hpp"
+#include "picture/attractor_picture.hpp"
 
 namespace gearlash {
 namespace {
@@ -53,33 +53,16 @@ bool is_of_motor(const drive::AttractorSearch& search) {
   return !search.irregular.empty() && search.irregular.front().is_motor_alone;
 }
 
-class Ways {
- public:
-  Ways(const drive::ReducedDrive& reduced, const drive::AttractorSearch& search)
-      : reduced_(reduced), system_(drive::drive_system(reduced)) {
-    double period = search.swing_time;
-    for (const drive::FoundCycle& cycle : search.cycles) period = std::max(period, cycle.period());
-    for (const drive::IrregularFound& motion : search.irregular) {
-      period = std::max(period, motion.period);
-    }
-    constexpr double periods = 1.5;
-    until_ = periods * period;
+/// s, of the ways to where starts lead.
+double length_of_ways(const drive::AttractorSearch& search) {
+  double period = search.swing_time;
+  for (const drive::FoundCycle& cycle : search.cycles) period = std::max(period, cycle.period());
+  for (const drive::IrregularFound& motion : search.irregular) {
+    period = std::max(period, motion.period);
   }
-
-  DrawnMotion from(const drive::ShaftStates& start, MotionRole role) const {
-    constexpr std::size_t most_events = 40'000;  // ticks included
-    drive::DriveSystem system = system_;
-    hybrid::Trajectory trajectory =
-        hybrid::simulate(system.system, drive::drive_start(reduced_, system, start),
-                         {.until = until_, .event_limit = most_events});
-    return {.motion = motion_of(std::move(system), std::move(trajectory)), .role = role};
-  }
-
- private:
-  const drive::ReducedDrive& reduced_;
-  drive::DriveSystem system_;
-  double until_ = 0.0;
-};
+  constexpr double periods = 1.5;
+  return periods * period;
+}
 
 /// Of the search's starts within the plane at most this many, evenly chosen.
 std::vector<const drive::Outcome*> starts_within(const StartPlane& plane,
@@ -153,9 +136,11 @@ void add_portrait(MotionPicture& picture, const drive::ReducedDrive& reduced,
       .speeds = {-angle.from_radians(plane.speed), angle.from_radians(plane.speed)},
       .is_of_motor = plane.is_of_motor};
   const double reference = std::get<double>(reduced.reference);
-  const Ways ways(reduced, search);
+  constexpr std::size_t most_events = 40'000;
   for (const drive::Outcome* outcome : starts_within(plane, search, reference)) {
-    picture.motions.push_back(ways.from(outcome->start, role_of(kind_of(outcome->end))));
+    picture.motions.push_back(
+        {.motion = motion_from(reduced, outcome->start, length_of_ways(search), most_events),
+         .role = role_of(kind_of(outcome->end))});
   }
   if (basins != nullptr) {
     const std::vector<double>& positions = basins->positions.values;

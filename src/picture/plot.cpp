@@ -84,8 +84,9 @@ std::vector<Tic> logarithmic_tics(const Bounds& range, int most) {
   return tics;
 }
 
-DrawnAxis drawn_axis(const Panel& panel, const PlotAxis& axis, double MapPoint::*along,
-                     double margin, int most) {
+/// The ends of the data along the axis.
+Bounds ends_of_data(const Panel& panel, const PlotAxis& axis, double MapPoint::*along,
+                    double margin) {
   Extent data;
   for (const Layer& layer : panel.layers) {
     for (const MapPoint& point : layer.points) {
@@ -93,25 +94,30 @@ DrawnAxis drawn_axis(const Panel& panel, const PlotAxis& axis, double MapPoint::
       if (is_drawn && (!axis.logarithmic || point.*along > 0.0)) data.include(point.*along);
     }
   }
-  Bounds ends = axis.logarithmic ? Bounds{axis.low.value_or(0.5 * axis.high.value_or(2.0)),
-                                          axis.high.value_or(2.0 * axis.low.value_or(1.0))}
-                                 : Bounds{axis.low.value_or(0.0),
-                                          axis.high.value_or(axis.low.value_or(0.0) + 1)};
-  if (data.low <= data.high) {
-    constexpr double ratio = 1.05;
-    const Bounds wide = axis.logarithmic ? Bounds{data.low / ratio, data.high * ratio}
-                                         : widened(data, data.low < data.high ? margin : 0.1);
-    ends = {axis.low.value_or(wide.low), axis.high.value_or(wide.high)};
+  constexpr double ratio = 1.05;
+  if (data.low > data.high) {
+    return axis.logarithmic ? Bounds{0.5 * axis.high.value_or(2.0), 2.0 * axis.low.value_or(1.0)}
+                            : Bounds{0.0, axis.low.value_or(0.0) + 1.0};
   }
-  const int power = axis.logarithmic || !axis.tics.empty()
-                        ? 0
-                        : shown_power(std::max(std::abs(ends.low), std::abs(ends.high)));
-  const std::string unit = unit_of_power(axis.unit, power);
-  return {.ends = ends,
-          .label = unit.empty() || axis.name.empty() ? axis.name : axis.name + " (" + unit + ")",
-          .tics = !axis.tics.empty() ? axis.tics
-                  : axis.logarithmic ? logarithmic_tics(ends, most)
-                                     : even_tics(ends, most, power)};
+  return axis.logarithmic ? Bounds{data.low / ratio, data.high * ratio}
+                          : widened(data, data.low < data.high ? margin : 0.1);
+}
+
+PlotAxis drawn_axis(const Panel& panel, PlotAxis axis, double MapPoint::*along, double margin,
+                    int most) {
+  const Bounds data = ends_of_data(panel, axis, along, margin);
+  const Bounds ends{axis.low.value_or(data.low), axis.high.value_or(data.high)};
+  axis.low = ends.low;
+  axis.high = ends.high;
+  const bool is_plain = axis.logarithmic || !axis.tics.empty();
+  const int power = is_plain ? 0 : shown_power(std::max(std::abs(ends.low), std::abs(ends.high)));
+  if (axis.tics.empty()) {
+    axis.tics = axis.logarithmic ? logarithmic_tics(ends, most) : even_tics(ends, most, power);
+  }
+  axis.unit = unit_of_power(axis.unit, power);
+  axis.name = label_of(axis);
+  axis.unit.clear();
+  return axis;
 }
 
 }  // namespace
@@ -139,15 +145,39 @@ MapCurve rectangle(const Bounds& x, const Bounds& y) {
   return {{x.low, y.low}, {x.high, y.low}, {x.high, y.high}, {x.low, y.high}};
 }
 
-DrawnAxis drawn_x(const Panel& panel, double width) {
+Layer zero_lines(const Panel& panel, Layer style) {
+  style.points = joined(
+      {{{*panel.x.low, 0.0}, {*panel.x.high, 0.0}}, {{0.0, *panel.y.low}, {0.0, *panel.y.high}}});
+  return style;
+}
+
+PlotAxis drawn_x(const Panel& panel, double width) {
   return drawn_axis(panel, panel.x, &MapPoint::x, 0.0,
                     std::clamp(static_cast<int>(width / 60.0), 4, 7));
 }
 
-DrawnAxis drawn_y(const Panel& panel) {
+PlotAxis drawn_y(const Panel& panel) {
   constexpr double margin = 0.03;
   return drawn_axis(panel, panel.y, &MapPoint::y, margin,
                     std::clamp(static_cast<int>(panel.height / 25.0), 5, 7));
+}
+
+Plot drawn(Plot plot) {
+  for (PlotColumn& column : plot.columns) {
+    for (Panel& panel : column) {
+      panel.x = drawn_x(panel);
+      panel.y = drawn_y(panel);
+    }
+  }
+  return plot;
+}
+
+std::string label_of(const PlotAxis& axis) {
+  return axis.unit.empty() || axis.name.empty() ? axis.name : axis.name + " (" + axis.unit + ")";
+}
+
+Axis span_of(const PlotAxis& axis) {
+  return {.values = {axis.low.value(), axis.high.value()}, .logarithmic = axis.logarithmic};
 }
 
 std::string mixed(const Colour& from, const Colour& to, double share) {

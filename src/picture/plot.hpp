@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gearlash/bounds.hpp"
+#include "question/axis.hpp"
 #include "question/map/region_boundary.hpp"
 
 namespace gearlash {
@@ -15,9 +16,8 @@ namespace gearlash {
 
 enum class LayerKind : std::uint8_t {
   line,
-  area,     ///< closed outlines, filled: bands, bars, cells and filled contours too
-  marks,    ///< one at each point
-  hatching  ///< thin lines that stand for an area in the legend
+  area,  ///< closed outlines, filled: bands, bars, cells, regions and filled contours too
+  marks  ///< one at each point
 };
 
 enum class Mark : std::uint8_t {
@@ -69,8 +69,8 @@ struct PlotAxis {
   std::string name = {};  ///< "inertia ratio"; empty: not written
   std::string unit = {};  ///< "rad"; empty for pure numbers and words
   bool logarithmic = false;
-  std::optional<double> low = std::nullopt;  ///< nothing: the end of the data
-  std::optional<double> high = std::nullopt;
+  std::optional<double> low = {};  ///< nothing: the end of the data
+  std::optional<double> high = {};
   std::vector<Tic> tics = {};  ///< empty: round numbers
   bool has_grid = true;        ///< lines across the panel at its numbers
 };
@@ -116,20 +116,25 @@ MapCurve joined(const std::vector<MapCurve>& curves);
 /// The outline of a rectangle, to append.
 MapCurve rectangle(const Bounds& x, const Bounds& y);
 
-/// An axis as it is drawn.
-struct DrawnAxis {
-  Bounds ends = {};
-  std::string label = {};  ///< "gap (µrad)", "position (10⁻³ deg)"
-  std::vector<Tic> tics = {};
-};
+/// Lines of that style where x or y is 0. Precondition: the axes have their ends.
+Layer zero_lines(const Panel& panel, Layer style);
 
-/// The ends, the numbers and the label of an axis of the panel, `width` wide. Open ends are those
-/// of the layers, with a margin where y is linear. Numbers on a linear axis are multiples of 1, 2
-/// or 5 times a power of ten. If they are below 0.02 or from 100 000 on, they are multiples of a
-/// power of a thousand, which the label has as a prefix of the unit if that is rad, rad/s or N m. A
-/// logarithmic axis shows powers of ten; a short one 1, 2 and 5 as well, or even steps.
-DrawnAxis drawn_x(const Panel& panel, double width = panel_width);
-DrawnAxis drawn_y(const Panel& panel);
+/// The axes of a panel as they are drawn, `width` wide: with their ends and numbers, and the unit
+/// in the name: "gap (µrad)", "position (10⁻³ deg)". Open ends are those of the layers, with a
+/// margin where y is linear. Numbers on a linear axis are multiples of 1, 2 or 5 times a power of
+/// ten. If they are below 0.02 or from 100 000 on, they are multiples of a power of a thousand,
+/// which the name has as a prefix of the unit if that is rad, rad/s or N m. A logarithmic axis
+/// shows powers of ten; a short one 1, 2 and 5 as well, or even steps.
+PlotAxis drawn_x(const Panel& panel, double width = panel_width);
+PlotAxis drawn_y(const Panel& panel);
+/// The plot with all its axes as they are drawn, for what draws it elsewhere.
+Plot drawn(Plot plot);
+
+/// "gap (rad)", of an axis with its own unit.
+std::string label_of(const PlotAxis& axis);
+
+/// From end to end, for position_on() and value_at(). Precondition: the axis has its ends.
+Axis span_of(const PlotAxis& axis);
 
 /// The smallest step of 1, 2 or 5 times a power of ten that divides `length` into at most `most`.
 double round_step(double length, int most);

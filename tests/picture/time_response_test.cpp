@@ -83,28 +83,28 @@ TEST(ShownEnd, AReferenceFarAwayIsNotShown) {
 }
 
 /// The y axis of a panel as high as the gap's.
-DrawnAxis axis_of(const char* name, const char* unit, const Bounds& range) {
+PlotAxis axis_of(const char* name, const char* unit, const Bounds& range) {
   return drawn_y(
       {.y = {.name = name, .unit = unit, .low = range.low, .high = range.high}, .height = 120.0});
 }
 
-std::string numbers_of(const DrawnAxis& axis) {
+std::string numbers_of(const PlotAxis& axis) {
   std::string text;
   for (const Tic& tic : axis.tics) text += tic.text + " ";
   return text;
 }
 
 TEST(DrawnAxis, NumbersAreShortWhateverTheirSize) {
-  const DrawnAxis gap = axis_of("gap", "rad", {-2.9e-7, 2.9e-7});
-  EXPECT_EQ(gap.label, "gap (nrad)");
+  const PlotAxis gap = axis_of("gap", "rad", {-2.9e-7, 2.9e-7});
+  EXPECT_EQ(gap.name, "gap (nrad)");
   EXPECT_EQ(numbers_of(gap), "-200 0 200 ");
   EXPECT_DOUBLE_EQ(gap.tics.front().at, -2e-7);
-  EXPECT_EQ(axis_of("position", "rad", {0.0, 0.016}).label, "position (mrad)");
-  EXPECT_EQ(axis_of("position", "deg", {0.0, 0.004}).label, "position (10⁻³ deg)");
-  EXPECT_EQ(axis_of("torque", "N m", {-2.5e6, 1e6}).label, "torque (MN m)");
-  EXPECT_EQ(axis_of("share", "", {0.0, 0.004}).label, "share (10⁻³)");
+  EXPECT_EQ(axis_of("position", "rad", {0.0, 0.016}).name, "position (mrad)");
+  EXPECT_EQ(axis_of("position", "deg", {0.0, 0.004}).name, "position (10⁻³ deg)");
+  EXPECT_EQ(axis_of("torque", "N m", {-2.5e6, 1e6}).name, "torque (MN m)");
+  EXPECT_EQ(axis_of("share", "", {0.0, 0.004}).name, "share (10⁻³)");
   EXPECT_EQ(numbers_of(axis_of("time", "s", {0.0, 3.6})), "0 1 2 3 ");
-  EXPECT_EQ(axis_of("position", "deg", {0.0, 25.0}).label, "position (deg)");
+  EXPECT_EQ(axis_of("position", "deg", {0.0, 25.0}).name, "position (deg)");
 }
 
 TEST(DrawnAxis, StepsAreAtMostThoseAskedFor) {

@@ -17,30 +17,58 @@ def closed():
     pyplot.close("all")
 
 
+def line_of(ax, label):
+    return next(line for line in ax.lines if line.get_label() == label)
+
+
 def test_a_motion_over_time(servo):
     motion = gearlash.simulate(servo, 20.0, start=gearlash.Start(load_position=0.5))
     ax = plot.motion(motion, unit="deg", points=500)
-    motor, load = ax.lines
-    times = np.linspace(0.0, 20.0, 500)
-    assert np.array_equal(load.get_xdata(), times)
-    assert load.get_ydata() == pytest.approx(np.degrees(motion.at(times).load_position))
-    assert motor.get_ydata() == pytest.approx(np.degrees(motion.at(times).motor_position))
+    for shaft in ("load", "motor"):
+        times, drawn = line_of(ax, shaft).get_data()
+        assert (times[0], times[-1]) == (0.0, pytest.approx(20.0)) and len(times) > 50
+        assert drawn == pytest.approx(np.degrees(motion.at(times)[f"{shaft}_position"]), abs=1e-6)
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("time (s)", "position (deg)")
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["motor", "load"]
+    legend = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert {"motor", "load"} < set(legend) and len(legend) == len(set(legend))
 
 
 def test_the_reference_is_drawn_where_there_is_one(pd_drive):
     drive = pd_drive.with_({"reference.kind": "constant", "reference.value": "1 deg"})
-    assert len(plot.motion(gearlash.simulate(drive, 0.5)).lines) == 3
+    ax = plot.motion(gearlash.simulate(drive, 0.5), unit="deg")
+    assert set(line_of(ax, "reference").get_ydata()) == {1.0}
 
 
 def test_a_cycle_in_the_phase_plane_has_its_amplitude(servo):
     answer = gearlash.analyse(servo)
     ax = plot.cycle(answer)
-    for line, amplitude in zip(ax.lines, (answer.cycles[0].motor_amplitude,
-                                          answer.cycles[0].amplitude)):
-        assert np.ptp(line.get_xdata()) / 2 == pytest.approx(amplitude, rel=1e-3)
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("position (rad)", "speed (rad/s)")
+    for shaft, amplitude in (("motor", answer.cycles[0].motor_amplitude),
+                             ("load", answer.cycles[0].amplitude)):
+        drawn = line_of(ax, shaft).get_xdata()
+        swing = np.nanmax(drawn) - np.nanmin(drawn)
+        assert swing / 2 == pytest.approx(amplitude, rel=1e-3)
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("position from the reference (rad)",
+                                                  "speed (rad/s)")
+
+
+def test_each_kind_of_layer_is_drawn_with_its_name_once():
+    def layer(kind, name, points):
+        return gearlash.Layer(kind=kind, name=name, points=points, dashes="4,2", mark="open_square")
+
+    gap = (float("nan"), float("nan"))
+    square = ((0, 0), (1, 0), (1, 1), gap, (2, 2), (3, 2), (3, 3))
+    panel = gearlash.Panel(
+        x=gearlash.PlotAxis(name="time (s)", low=1.0, high=4.0, tics=[gearlash.Tic(2.0, "two")]),
+        y=gearlash.PlotAxis(name="gap", low=0.1, high=10.0, logarithmic=True),
+        layers=[layer("area", "apart", square), layer("line", "load", square),
+                layer("line", "load", square), layer("marks", "impact", square)],
+        texts=[gearlash.PlotText(at=gearlash.MapPoint(2.0, 1.0), text="here")])
+    ax = plot.draw(panel)
+    assert len(ax.collections[0].get_paths()) == 2
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["apart", "load", "impact"]
+    assert (ax.get_xlim(), ax.get_yscale()) == ((1.0, 4.0), "log")
+    assert [label.get_text() for label in ax.get_xticklabels()] == ["two"]
+    assert ax.texts[0].get_text() == "here"
 
 
 def test_a_sweep_over_one_axis(servo):

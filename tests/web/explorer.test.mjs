@@ -112,7 +112,8 @@ onPage('all answers are there: pictures, gears, map, changes', 'example=normaliz
   assert.ok((await page.locator('#card-phase svg path').count()) > 8);
   assert.match(await page.textContent('#card-phase svg'), /faces apart/);
   assert.match(await page.textContent('#card-phase svg'), /impact/);
-  assert.equal(await page.locator('#traces canvas').count(), 2);
+  const traces = await page.textContent('#card-time svg');
+  for (const axis of [/time \(/, /position \(/, /gap \(/, /torque \(/]) assert.match(traces, axis);
   assert.match(await page.textContent('#card-map svg'), /you are here/);
   assert.match(await page.textContent('#card-map svg'), /hunting ends/);
   // It prints on one page.
@@ -426,9 +427,9 @@ onPage('a link that sets what the drive does not take says so, and answers witho
 
 onPage('a proof without a motion leaves no motion of the drive before', 'example=normalized', async (page) => {
   await settled(page);
-  assert.equal(await page.locator('#traces canvas').count(), 2);
+  assert.equal(await page.locator('#card-time svg[role=img]').count(), 1);
   await drop(page, [{ name: 'still.toml', text: example('first-servo.toml').replace('position = "load"', 'position = "motor"') }]);
   await page.waitForFunction(() => /cannot hunt/i.test(document.getElementById('headline').textContent));
-  assert.equal(await page.locator('#traces canvas').count(), 0);
+  assert.equal(await page.locator('#card-time svg').count(), 0);
   assert.ok(await page.isDisabled('#gear-play'));
 });

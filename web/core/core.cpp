@@ -4,19 +4,21 @@
 #include <array>
 #include <exception>
 #include <optional>
+#include <utility>
 
 #include "drive_reply.hpp"
 #include "gearlash/design.hpp"
 #include "grid_reply.hpp"
 #include "input/axis_text.hpp"
 #include "limited_progress.hpp"
+#include "motion_reply.hpp"
 #include "output/answer_report.hpp"
+#include "output/drive_text.hpp"
 #include "output/json_writer.hpp"
 #include "output/parameter_text.hpp"
 #include "output/records.hpp"
 #include "picture/answer_picture.hpp"
 #include "picture/attractor_picture.hpp"
-#include "picture_reply.hpp"
 #include "question/analyse.hpp"
 #include "thesis/figures.hpp"
 #include "web/reply_records.hpp"
@@ -31,12 +33,6 @@ const char* name_of(Means means) {
 
 namespace {
 
-/// For pictures to be put beside it.
-template <class Reply>
-Json json_from(const Reply& reply) {
-  return Json::parse(json_of(reply));
-}
-
 std::vector<ShownFault> shown(const std::vector<Fault>& faults) {
   std::vector<ShownFault> all;
   for (const Fault& fault : faults) {
@@ -45,6 +41,14 @@ std::vector<ShownFault> shown(const std::vector<Fault>& faults) {
         {fault.path, find_parameter(plain) != nullptr, fault.value, fault.permitted, fault.where});
   }
   return all;
+}
+
+/// With its points beside it.
+template <class Of>
+Reply written(const Of& reply) {
+  Reply made;
+  made.json = json_of(reply, &made.numbers);
+  return made;
 }
 
 MarginText text_of(const ParameterMargin& margin, const WrittenDrive& written,
@@ -79,28 +83,27 @@ MarginsReply reply_of(const HuntingMargin& margin, const DriveText& text,
 
 }  // namespace
 
-/// One page: its drive, its last answer, and the columns of the reply at hand.
+/// One page: its drive and its last answer.
 class Core::Session {
  public:
   explicit Session(Host host) : host_(std::move(host)) {}
 
-  Json reply_to(const Json& request) {
-    numbers_ = Numbers();
+  Reply reply_to(const Json& request) {
     LimitedProgress progress(host_, request.value("seconds", infinity));
     const std::string ask = request.at("ask");
-    if (ask == "thesis") return thesis_figure(request.at("figure"), progress);
+    if (ask == "thesis") return written(thesis_figure(request.at("figure"), progress));
     const DriveText text = drive_text_of(request.at("drive"));
-    const WrittenDrive written = parse(text, host_.folder);
-    if (ask == "drive") return json_from(drive_reply(text, written));
-    if (ask == "file") return file_reply(written);
-    if (ask == "answer") return answer(request, text, written, progress);
-    if (ask == "map") return map_reply(request, written, numbers_, progress);
-    if (ask == "chart") return chart_reply(request, written, numbers_, progress);
-    if (ask == "margins") return margins(request, text, written, progress);
+    const WrittenDrive drive = parse(text, host_.folder);
+    if (ask == "drive") return written(drive_reply(text, drive));
+    if (ask == "file") {
+      return written(FileReply{to_toml(TolerancedDrive{drive.drive, drive.tolerances})});
+    }
+    if (ask == "answer") return written(answer(request, text, drive, progress));
+    if (ask == "map") return written(map_reply(request, drive, progress));
+    if (ask == "chart") return written(chart_reply(request, drive, progress));
+    if (ask == "margins") return written(margins(request, text, drive, progress));
     refuse("ask", ask, "must be thesis, drive, file, answer, map, chart or margins");
   }
-
-  std::vector<double> take_numbers() { return numbers_.take(); }
 
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -124,27 +127,23 @@ class Core::Session {
     return is_coarse ? Means::one_start : Means::search;
   }
 
-  Json answer(const Json& request, const DriveText& text, const WrittenDrive& written,
-              Progress& progress) {
+  AnswerReply answer(const Json& request, const DriveText& text, const WrittenDrive& written,
+                     Progress& progress) {
     const bool is_coarse = request.value("level", "fine") == "coarse";
     if (last_toml_ != text.toml) last_.reset();  // another drive
     const Analysis analysis = analysed(is_coarse, written, progress);
     const AnswerReport report = report_of(written.drive, analysis.answer, written.angle, {});
-    Json json =
-        json_from(AnswerReply{.level = is_coarse ? Level::coarse : Level::fine,
-                              .means = means_of(analysis, is_coarse),
-                              .is_complete = !analysis.search || analysis.search->is_complete,
-                              .headline = headline(report),
-                              .report = is_coarse ? "" : answer_text(report),
-                              .answer = report.answer,
-                              .unit = written.angle.name,
-                              .unit_in_si = written.angle.radians});
+    AnswerReply reply{.level = is_coarse ? Level::coarse : Level::fine,
+                      .means = means_of(analysis, is_coarse),
+                      .is_complete = !analysis.search || analysis.search->is_complete,
+                      .headline = headline(report),
+                      .report = is_coarse ? "" : answer_text(report),
+                      .answer = report.answer,
+                      .unit = written.angle.name,
+                      .unit_in_si = written.angle.radians};
     if (is_drawn(analysis)) {
-      json["response"] = motion_picture_json(response_picture(report, analysis), numbers_);
-      MotionPicture phase = phase_of(report, analysis, is_coarse, progress);
-      json["phase"] = phase_json(phase);
-      std::erase_if(phase.motions, [](const DrawnMotion& drawn) { return !drawn.is_cycle; });
-      json["cycles"] = motion_picture_json(phase, numbers_);
+      reply.motions = {motion_reply("the way there", response_picture(report, analysis))};
+      add_cycles(phase_of(report, analysis, is_coarse, progress), reply);
     }
     // What is known of a drive with one start is too little to follow; and where following failed,
     // trying it again from ever farther away would cost more than the start.
@@ -153,15 +152,19 @@ class Core::Session {
       last_ = analysis;
       last_toml_ = text.toml;
     }
-    return json;
+    return reply;
   }
 
-  /// Null for motions with too many events to draw.
-  Json phase_json(const MotionPicture& picture) {
+  /// The phase plane, unless there are too many events to draw, and each cycle over time.
+  static void add_cycles(MotionPicture picture, AnswerReply& reply) {
     try {
-      return plot_json(phase_plot(picture), numbers_);
-    } catch (const InvalidInput&) {
-      return nullptr;
+      reply.phase = drawn(phase_plot(picture));
+    } catch (const InvalidInput&) {  // the motions say it too
+    }
+    for (const DrawnMotion& motion : std::exchange(picture.motions, {})) {
+      if (!motion.is_cycle) continue;
+      picture.motions = {motion};
+      reply.motions.push_back(motion_reply(motion.name.empty() ? "cycle" : motion.name, picture));
     }
   }
 
@@ -177,29 +180,28 @@ class Core::Session {
                              report.angle);
   }
 
-  static Json margins(const Json& request, const DriveText& text, const WrittenDrive& written,
-                      Progress& progress) {
+  static MarginsReply margins(const Json& request, const DriveText& text,
+                              const WrittenDrive& written, Progress& progress) {
     std::vector<Axis> axes;
     for (const Json& path : request.value("parameters", Json::array())) {
       axes.push_back(read_axis_to_search("parameters", path.get<std::string>(), written.drive));
     }
     const HuntingMargin margin = axes.empty() ? gearlash::margins(written.drive, progress)
                                               : gearlash::margins(written.drive, axes, progress);
-    return json_from(reply_of(margin, text, written));
+    return reply_of(margin, text, written);
   }
 
-  Json thesis_figure(int number, Progress& progress) {
+  static Plot thesis_figure(int number, Progress& progress) {
     for (const thesis::PhaseFigure& figure : thesis::thesis_phase_figures()) {
-      if (figure.number == number) return plot_json(plot_of(figure), numbers_);
+      if (figure.number == number) return drawn(plot_of(figure));
     }
     for (const thesis::Figure& figure : thesis::thesis_figures()) {
-      if (figure.number == number) return plot_json(plot_of(figure, progress), numbers_);
+      if (figure.number == number) return drawn(plot_of(figure, progress));
     }
     refuse("figure", std::to_string(number), "must be the number of a figure: 2 to 15");
   }
 
   Host host_;
-  Numbers numbers_;
   std::optional<Analysis> last_;
   std::string last_toml_;
 };
@@ -208,20 +210,15 @@ Core::Core(Host host) : session_(std::make_unique<Session>(std::move(host))) {}
 Core::~Core() = default;
 
 Reply Core::ask(std::string_view request) {
-  Reply reply;
-  Json json;
   try {
-    json = session_->reply_to(Json::parse(request));
-    reply.numbers = session_->take_numbers();
+    return session_->reply_to(Json::parse(request));
   } catch (const InvalidInput& error) {
-    json = {{"faults", json_from(shown(error.faults()))}};
+    return written(FaultsReply{shown(error.faults())});
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    json = {{"failure", error.what()}};
+    return written(FailureReply{error.what()});
   }
-  reply.json = json.dump();
-  return reply;
 }
 
 }  // namespace gearlash::web

@@ -8,7 +8,6 @@
 #include "gearlash/design.hpp"
 #include "gearlash/parameter.hpp"
 #include "model/parameters.hpp"
-#include "output/drive_text.hpp"
 #include "question/family/family.hpp"
 
 namespace gearlash::web {
@@ -107,10 +106,6 @@ DriveReply drive_reply(const DriveText& text, const WrittenDrive& written) {
     reply.absent.push_back({section.name, section.contents});
   }
   return reply;
-}
-
-Json file_reply(const WrittenDrive& written) {
-  return {{"toml", to_toml(TolerancedDrive{written.drive, written.tolerances})}};
 }
 
 }  // namespace gearlash::web

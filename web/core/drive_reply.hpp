@@ -2,16 +2,19 @@
 #pragma once
 
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "gearlash/parameter.hpp"
 #include "input/drive_file.hpp"
 #include "model/parameters.hpp"
-#include "numbers.hpp"
 #include "replies.hpp"
 
 namespace gearlash::web {
+
+/// Of requests.
+using Json = nlohmann::json;
 
 /// A drive as the page holds it: the text of a file, and what was changed since.
 struct DriveText {
@@ -48,8 +51,5 @@ class ShownUnits {
 /// Every parameter of the drive: its value, as SI and as text in its author's unit, that unit, what
 /// it means, and the range of its slider.
 DriveReply drive_reply(const DriveText& text, const WrittenDrive& written);
-
-/// The drive as a file that reads back exactly.
-Json file_reply(const WrittenDrive& written);
 
 }  // namespace gearlash::web

@@ -11,20 +11,14 @@
 #include "picture/bifurcation_picture.hpp"
 #include "picture/grid_map.hpp"
 #include "picture/grid_words.hpp"
-#include "picture_reply.hpp"
 #include "question/family/evaluation.hpp"
 #include "question/map/bifurcations.hpp"
 
 namespace gearlash::web {
 namespace {
 
-/// An axis with its drawn unit, for placing a mark.
-Json axis_facts(const Axis& axis, const Drive& drive, const AngleUnit& angle) {
-  const PlotAxis drawn = plot_axis(axis, drive, angle);
-  return {{"path", axis.path},
-          {"label", drawn.name + (drawn.unit.empty() ? "" : " (" + drawn.unit + ")")},
-          {"logarithmic", axis.logarithmic},
-          {"unit_in_si", drawn_unit(axis, drive, angle)}};
+MapAxis shown(const Axis& axis, const WrittenDrive& written) {
+  return {axis.path, drawn_unit(axis, written.drive, written.angle).size};
 }
 
 Axis read(const char* field, const Json& request, const Drive& drive) {
@@ -45,8 +39,7 @@ void require_few(const Grid& grid) {
 
 }  // namespace
 
-Json map_reply(const Json& request, const WrittenDrive& written, Numbers& numbers,
-               Progress& progress) {
+MapReply map_reply(const Json& request, const WrittenDrive& written, Progress& progress) {
   GridTable table{
       .grid = {.drive = written.drive,
                .axes = {read("y", request, written.drive), read("x", request, written.drive)}},
@@ -58,23 +51,20 @@ Json map_reply(const Json& request, const WrittenDrive& written, Numbers& number
   table.table = Table(grid.size(), quantities);
   const RowCount count = evaluate(Family(grid), grid, 0, table.table, progress);
   add_borders(table, progress);
-  Json json = {{"plot", plot_json(map_plot(table, Quantity::amplitude), numbers)}};
-  json["axes"] = {{"x", axis_facts(grid.axes[1], grid.drive, written.angle)},
-                  {"y", axis_facts(grid.axes[0], grid.drive, written.angle)}};
-  json["is_complete"] = !count.stopped;
-  return json;
+  return {.plot = drawn(map_plot(table, Quantity::amplitude)),
+          .x = shown(grid.axes[1], written),
+          .y = shown(grid.axes[0], written),
+          .is_complete = !count.stopped};
 }
 
-Json chart_reply(const Json& request, const WrittenDrive& written, Numbers& numbers,
-                 Progress& progress) {
+MapReply chart_reply(const Json& request, const WrittenDrive& written, Progress& progress) {
   const Axis axis = read("x", request, written.drive);
-  require_none(faults(Grid{.drive = written.drive, .axes = {axis}}, {"x"}));
   const Grid grid{.drive = written.drive, .axes = {axis}};
+  require_none(faults(grid, {"x"}));
   const BifurcationDiagram diagram = bifurcations_of(written.drive, axis, progress);
-  return {{"plot",
-           plot_json(bifurcation_plot(diagram, grid, Quantity::amplitude, written.angle), numbers)},
-          {"axes", {{"x", axis_facts(axis, written.drive, written.angle)}}},
-          {"is_complete", diagram.is_complete}};
+  return {.plot = drawn(bifurcation_plot(diagram, grid, Quantity::amplitude, written.angle)),
+          .x = shown(axis, written),
+          .is_complete = diagram.is_complete};
 }
 
 }  // namespace gearlash::web

@@ -1,4 +1,4 @@
-// What the core replies, but for pictures. records/make gives web/page the same as types.
+// What the core replies. records/make gives web/page the same as types.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 #include "gearlash/answer.hpp"
 #include "gearlash/parameter.hpp"
 #include "output/json_writer.hpp"
+#include "picture/plot.hpp"
 
 namespace gearlash::web {
 
@@ -48,6 +49,20 @@ struct AbsentSection {
   std::string_view contents{};  ///< what is in it
 };
 
+/// Input that was bad.
+struct FaultsReply {
+  std::vector<ShownFault> faults{};  ///< each of them
+};
+
+/// Work that could not be done.
+struct FailureReply {
+  std::string failure{};  ///< why
+};
+
+struct FileReply {
+  std::string toml{};  ///< of a drive, which reads back exactly
+};
+
 struct DriveReply {
   std::vector<ParameterReply> parameters{};  ///< all of them, in the order of files
   std::vector<AbsentSection> absent{};       ///< what else it could have
@@ -61,6 +76,25 @@ enum class Means : std::uint8_t { closed_form, proof_by_energy, followed, one_st
 /// The enumerator's name with spaces.
 const char* name_of(Means means);
 
+/// A moment at which the mode changes.
+struct ShownEvent {
+  double time = 0.0;         ///< in the motion's unit
+  std::string what{};        ///< happened
+  std::string mode_after{};  ///< "apart"; empty in contact
+};
+
+/// A motion over time. Positions are in the answer's unit, from the reference.
+struct ShownMotion {
+  std::string name{};                ///< among the motions of an answer
+  std::string reason{};              ///< why it is not drawn; empty if it is
+  std::string time_unit{};           ///< "s", or "1/ω_n" of a normal form without it
+  double gap = 0.0;                  ///< face to face
+  MapCurve load{};                   ///< time and position
+  MapCurve motor{};                  ///< at the same times
+  std::vector<ShownEvent> events{};  ///< in their order
+  Plot plot{};                       ///< of positions, gap and torque
+};
+
 struct AnswerReply {
   Level level = Level::fine;         ///< coarse: without proofs and borders
   Means means = Means::closed_form;  ///< how the answer was found
@@ -70,6 +104,23 @@ struct AnswerReply {
   Answer answer{};                   ///< its numbers
   std::string unit{};                ///< of angles
   double unit_in_si = 1.0;           ///< its size
+  /// The way there, and each cycle; none without a motion.
+  std::vector<ShownMotion> motions{};
+  std::optional<Plot> phase{};  ///< the phase plane
+};
+
+/// An axis with its drawn unit, for placing a mark.
+struct MapAxis {
+  std::string path{};       ///< of its parameter
+  double unit_in_si = 1.0;  ///< the unit that is drawn
+};
+
+/// A map over two axes, or branches of cycles over one.
+struct MapReply {
+  Plot plot{};                 ///< the map
+  MapAxis x{};                 ///< to the right
+  std::optional<MapAxis> y{};  ///< upwards, if it is no quantity
+  bool is_complete = true;     ///< not stopped
 };
 
 /// A margin as a reader has it. Values beyond which hunting ends or begins are rounded to that

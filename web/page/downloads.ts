@@ -1,5 +1,5 @@
 // Files that the page gives: pictures, data and drives.
-import { draw, light, type Plot } from './plot';
+import { draw, type Plot } from './plot';
 
 export function save(name: string, content: Blob | string, type = 'text/plain'): void {
   const blob = typeof content === 'string' ? new Blob([content], { type }) : content;
@@ -11,10 +11,10 @@ export function save(name: string, content: Blob | string, type = 'text/plain'):
 }
 
 /** The picture as it is printed: on white, with its title. */
-export const svgFile = (plot: Plot): string => `<?xml version="1.0" encoding="UTF-8"?>\n${draw(plot, light, { isTitled: true })}\n`;
+export const svgFile = (plot: Plot): string => `<?xml version="1.0" encoding="UTF-8"?>\n${draw(plot, { isTitled: true })}\n`;
 
 export async function savePng(name: string, plot: Plot): Promise<void> {
-  const svg = draw(plot, light, { isTitled: true });
+  const svg = draw(plot, { isTitled: true });
   const [, wide, high] = /viewBox="0 0 ([\d.]+) ([\d.]+)"/.exec(svg)!;
   const image = new Image();
   image.src = URL.createObjectURL(new Blob([svg.replace('<svg ', `<svg width="${wide}" height="${high}" `)], { type: 'image/svg+xml' }));
@@ -31,7 +31,7 @@ export async function savePng(name: string, plot: Plot): Promise<void> {
 }
 
 /** A table with a header, as spreadsheets, pandas and gnuplot read it. */
-export function csv(header: string[], columns: ArrayLike<number>[]): string {
+export function csv(header: string[], columns: ArrayLike<number | string>[]): string {
   const lines = [header.join(',')];
   const rows = columns[0]?.length ?? 0;
   for (let i = 0; i < rows; ++i) lines.push(columns.map((column) => String(column[i])).join(','));

@@ -12,6 +12,7 @@ import maxon from '../../examples/products/maxon-re40-gp42c.toml';
 import tMotor from '../../examples/products/t-motor-ak80-6.toml';
 import robot from '../../examples/robot-joint.toml';
 import telescope from '../../examples/telescope-axis.toml';
+import { addButton, markCurrent } from './elements';
 import type { DriveText } from './replies';
 
 /** Texts by name. The first is shown to a stranger. */
@@ -44,31 +45,17 @@ export function aboutOf(toml: string): string {
 /** One button for each example. */
 export function listExamples(place: HTMLElement, chosen: (toml: string, name: string) => void): void {
   for (const [name, toml] of examples) {
-    const button = document.createElement('button');
-    button.type = 'button';
-    button.textContent = name.replaceAll('-', ' ');
+    const button = addButton(place, name.replaceAll('-', ' '), () => chosen(toml, name));
     button.dataset.example = name;
     button.title = aboutOf(toml);
-    button.onclick = () => chosen(toml, name);
-    place.append(button);
   }
 }
 
 /** A last button, which leads back to the user's own drive with all that was changed in it. */
 export function offerOwn(place: HTMLElement, drive: DriveText, chosen: (drive: DriveText) => void): void {
   place.querySelector('[data-example=""]')?.remove();
-  const button = document.createElement('button');
-  button.type = 'button';
-  button.textContent = `your ${drive.name}`;
-  button.dataset.example = '';
-  button.onclick = () => chosen(drive);
-  place.append(button);
+  addButton(place, `your ${drive.name}`, () => chosen(drive)).dataset.example = '';
 }
 
 /** Marks the button of the example that is shown. */
-export function markExample(place: HTMLElement, name: string): void {
-  for (const button of place.querySelectorAll('button')) {
-    if (button.dataset.example === name) button.setAttribute('aria-current', 'true');
-    else button.removeAttribute('aria-current');
-  }
-}
+export const markExample = (place: HTMLElement, name: string): void => markCurrent(place.querySelectorAll('button'), ({ dataset }) => dataset.example === name);

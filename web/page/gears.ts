@@ -1,7 +1,10 @@
 // Two gears with their gap, moved by a trajectory. The gap is drawn as wide as the teeth permit; all
 // angles are enlarged by the same factor, so that swing and gap are in proportion.
 import { short } from './numbers';
-import type { Traces } from './pictures';
+import type { ShownMotion } from './replies';
+
+/** A motion with its points, time and position from the reference by turns. */
+export type Moving = Omit<ShownMotion, 'load' | 'motor'> & { load: Float64Array; motor: Float64Array };
 
 const teeth = 14;
 const pitch = (2 * Math.PI) / teeth;
@@ -31,7 +34,7 @@ function outline(isToothAtZero: boolean): string {
 }
 
 export class GearView {
-  private traces: Traces | null = null;
+  private motion: Moving | null = null;
   private time = 0;
   private isPlaying = false;
   private before = 0;
@@ -65,33 +68,25 @@ export class GearView {
   }
 
   private get endTime(): number {
-    const time = this.traces?.time;
-    return time && time.length > 0 ? time[time.length - 1]! : 0;
+    return this.motion?.load.at(-2) ?? 0;
   }
 
-  take(traces: Traces): void {
+  /** Null: there is no motion. */
+  take(motion: Moving | null): void {
     const share = this.endTime > 0 ? this.time / this.endTime : 0;
-    this.traces = traces;
-    const isEmpty = traces.time.length === 0;
+    this.motion = motion;
+    const isEmpty = !motion || motion.load.length === 0;
     for (const part of [this.parts.play, this.parts.back, this.parts.on, this.parts.slider]) part.disabled = isEmpty;
     if (isEmpty) {
       this.pause();
-      this.parts.words.textContent = traces.reason ? `Not drawn: ${traces.reason}` : '';
+      this.parts.words.textContent = motion?.reason ? `Not drawn: ${motion.reason}` : '';
       return;
     }
     this.show(share * this.endTime);
   }
 
-  /** Without a motion. */
-  clear(): void {
-    this.traces = null;
-    this.pause();
-    for (const part of [this.parts.play, this.parts.back, this.parts.on, this.parts.slider]) part.disabled = true;
-    this.parts.words.textContent = '';
-  }
-
   play(): void {
-    if (!this.traces || this.endTime === 0) return;
+    if (this.endTime === 0) return;
     if (this.stillness.matches) return this.step(1);
     if (this.time >= this.endTime) this.time = 0;
     this.isPlaying = true;
@@ -117,56 +112,44 @@ export class GearView {
   /** To the next event, or the one before. */
   private step(direction: 1 | -1): void {
     this.pause();
-    const times = (this.traces?.events ?? []).map(([time]) => time);
+    const times = (this.motion?.events ?? []).map(({ time }) => time);
     const tiny = 1e-9 * this.endTime;
     const next = direction > 0 ? times.find((time) => time > this.time + tiny) : times.findLast((time) => time < this.time - tiny);
     this.show(next ?? (direction > 0 ? this.endTime : 0));
   }
 
   private show(time: number): void {
-    const traces = this.traces;
-    if (!traces || traces.time.length === 0) return;
+    const motion = this.motion;
+    if (!motion || motion.load.length === 0) return;
     this.time = time;
-    const at = this.placeOf(time);
-    const load = this.between(traces.load, at, time);
-    const motor = this.between(traces.motor, at, time);
-    const reference = this.between(traces.reference, at, time);
-    const scale = drawnGap / (traces.gap > 0 ? traces.gap : this.swing() || 1);
+    const [load, motor] = [at(motion.load, time), at(motion.motor, time)];
+    const scale = drawnGap / (motion.gap > 0 ? motion.gap : swing(motion.load) || 1);
     const degrees = (angle: number): string => ((angle * scale * 180) / Math.PI).toFixed(3);
-    this.motor.setAttribute('transform', `translate(-${radius} 0) rotate(${degrees(motor - reference)})`);
-    this.load.setAttribute('transform', `translate(${radius} 0) scale(-1 1) rotate(${degrees(load - reference)})`);
+    this.motor.setAttribute('transform', `translate(-${radius} 0) rotate(${degrees(motor)})`);
+    this.load.setAttribute('transform', `translate(${radius} 0) scale(-1 1) rotate(${degrees(load)})`);
     this.parts.slider.value = String(time / (this.endTime || 1));
-    this.parts.slider.setAttribute('aria-valuetext', `${short(time, 3)} ${traces.timeUnit}`);
-    const event = traces.events.findLast(([when]) => when <= time * (1 + 1e-12));
-    const gap = traces.gap > 0 ? `The motor is at ${Math.round(100 * ((motor - load) / traces.gap + 0.5))} % of the gap.` : 'There is no backlash.';
-    this.parts.words.textContent = `${short(time, 3)} ${traces.timeUnit}: ${event ? `${event[1]}; then ${event[2] || 'in contact'}` : 'start'}. ${gap}`;
+    this.parts.slider.setAttribute('aria-valuetext', `${short(time, 3)} ${motion.time_unit}`);
+    const event = motion.events.findLast((one) => one.time <= time * (1 + 1e-12));
+    const gap = motion.gap > 0 ? `The motor is at ${Math.round(100 * ((motor - load) / motion.gap + 0.5))} % of the gap.` : 'There is no backlash.';
+    this.parts.words.textContent = `${short(time, 3)} ${motion.time_unit}: ${event ? `${event.what}; then ${event.mode_after || 'in contact'}` : 'start'}. ${gap}`;
     this.moved(time);
   }
+}
 
-  /** The largest distance of the load from the reference. */
-  private swing(): number {
-    const { load, reference } = this.traces!;
-    return load.reduce((largest, position, i) => Math.max(largest, Math.abs(position - reference[i]!)), 0);
-  }
+/** The largest distance from the reference. */
+const swing = (curve: Float64Array): number => curve.reduce((largest, value, i) => (i % 2 ? Math.max(largest, Math.abs(value)) : largest), 0);
 
-  /** The last index whose time is not after `time`. */
-  private placeOf(time: number): number {
-    const times = this.traces!.time;
-    let low = 0;
-    let high = times.length - 1;
-    while (low < high) {
-      const middle = (low + high + 1) >> 1;
-      if (times[middle]! <= time) low = middle;
-      else high = middle - 1;
-    }
-    return low;
+/** The position at a time, between the points before and after it. */
+function at(curve: Float64Array, time: number): number {
+  let low = 0;
+  let high = curve.length / 2 - 1;
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (curve[2 * middle]! <= time) low = middle;
+    else high = middle - 1;
   }
-
-  private between(values: Float64Array, at: number, time: number): number {
-    const times = this.traces!.time;
-    const next = Math.min(at + 1, times.length - 1);
-    const span = times[next]! - times[at]!;
-    const share = span > 0 ? (time - times[at]!) / span : 0;
-    return values[at]! + share * (values[next]! - values[at]!);
-  }
+  const next = Math.min(low + 1, curve.length / 2 - 1);
+  const span = curve[2 * next]! - curve[2 * low]!;
+  const share = span > 0 ? (time - curve[2 * low]!) / span : 0;
+  return curve[2 * low + 1]! + share * (curve[2 * next + 1]! - curve[2 * low + 1]!);
 }

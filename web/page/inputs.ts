@@ -1,4 +1,5 @@
 // The inputs of a drive, made from the registry of parameters that the core sends.
+import { addButton } from './elements';
 import { escapeText, inWords, typed } from './numbers';
 import type { DriveReply, Fault, Parameter, Slider } from './replies';
 
@@ -122,11 +123,7 @@ export class Inputs {
     line.className = 'absent';
     line.innerHTML = `Not in this drive: ${drive.absent.filter(({ name }) => name !== 'servo').map(({ name, contents }) => `<span title="${escapeText(contents)}">${escapeText(titleOf(name))}</span>`).join(', ')}. `;
     if (drive.absent.some(({ name }) => name === 'sampling') && sections.has('controller')) {
-      const add = document.createElement('button');
-      add.type = 'button';
-      add.textContent = 'Sample the controller';
-      add.onclick = () => this.changed('sampling.period', '1 ms', false);
-      line.append(add);
+      addButton(line, 'Sample the controller', () => this.changed('sampling.period', '1 ms', false));
     }
     return line;
   }

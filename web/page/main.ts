@@ -1,24 +1,21 @@
 // The explorer: holds the state, asks the core, and shows the answers.
-import 'uplot/dist/uPlot.min.css';
 import './style.css';
 
 import { Cards } from './cards';
 import { type Core, InputError, Lane, Overtaken, patiently } from './core';
+import { byId, markCurrent } from './elements';
 import { aboutOf, examples, listExamples, markExample, offerOwn } from './examples';
 import { Inputs, missingInputs } from './inputs';
 import { driveIn, listenToFiles } from './opening';
 import { embeddedDrive, loadedParts } from './parts';
 import { copyLink, keepTheme, keptTheme, saveDrive } from './keeping';
 import { Motions } from './motions';
-import { dark, light, type Theme } from './plot';
 import type { AnswerReply, DriveReply, DriveText, Fault, Replied } from './replies';
 import { addressOf, commandOf, setOptions, stateOf, withSetting, type State } from './state';
 import { Story, storySteps } from './story';
 import { listAxes, Studies } from './studies';
 import { Thesis } from './thesis';
 import { capital, ceilingText, growthText, levelText, wordsOf } from './words';
-
-const byId = <T extends Element = HTMLElement>(id: string): T => document.getElementById(id) as unknown as T;
 
 /** Milliseconds without a change after which a slider rests. */
 const restAfter = 220;
@@ -29,7 +26,6 @@ class Explorer {
   private state!: State;
   private facts: DriveReply | null = null;
   private answer: Replied<AnswerReply> | null = null;
-  private theme: Theme = light;
   private resting: ReturnType<typeof setTimeout> | undefined;
   private isAsking = false;
   private isStale = false;
@@ -41,7 +37,7 @@ class Explorer {
   private explored: Pick<State, 'drive' | 'example' | 'x' | 'y'> | null = null;
   /** Counts what the user did; an answer to older input is dropped. */
   private turn = 0;
-  private readonly cards = new Cards(light, () => this.state.drive.name.replace(/\.toml$/, ''), (error) => this.tell(wordsOf(error)));
+  private readonly cards = new Cards(() => this.state.drive.name.replace(/\.toml$/, ''), (error) => this.tell(wordsOf(error)));
   private readonly studies: Studies;
   private readonly inputs = new Inputs(byId('inputs'), (path, text, isDragging) => this.change(path, text, isDragging));
   private readonly motions: Motions;
@@ -49,20 +45,19 @@ class Explorer {
   private readonly thesis: Thesis;
 
   constructor(private readonly core: Core) {
-    this.motions = new Motions(this.cards, () => this.theme);
+    this.motions = new Motions(this.cards);
     this.studies = new Studies(
       {
         drive: () => this.state.drive,
         facts: () => this.facts!,
         answer: () => this.answer?.reply ?? null,
-        theme: () => this.theme,
         axes: () => this.state,
         change: (path, text) => this.change(path, text, false),
       },
       core.studies,
       this.cards,
     );
-    this.thesis = new Thesis(core.studies, this.cards, () => this.theme, (figure) => {
+    this.thesis = new Thesis(core.studies, this.cards, (figure) => {
       this.state.figure = figure;
       void this.keepAddress();
       void this.thesis.show(figure);
@@ -95,14 +90,11 @@ class Explorer {
       button.onclick = () => void this.look(button.dataset.view as State['view']);
     }
     byId('theme').onclick = () => {
-      const name = this.theme === light ? 'dark' : 'light';
+      const name = document.documentElement.dataset.theme === 'light' ? 'dark' : 'light';
       this.useTheme(name);
       keepTheme(name);
-      this.redraw();
     };
     byId('print').onclick = () => window.print();
-    addEventListener('beforeprint', () => this.cards.redraw(light));
-    addEventListener('afterprint', () => this.redraw());
     byId('stop').onclick = () => this.stop();
     byId('save-toml').onclick = () => void saveDrive(this.core.answers, this.state.drive).catch((error) => this.refuse(error));
     byId('copy-link').onclick = () => void this.keepAddress().then(copyLink);
@@ -123,7 +115,6 @@ class Explorer {
   }
 
   private useTheme(name: string): void {
-    this.theme = name === 'dark' ? dark : light;
     document.documentElement.dataset.theme = name;
     byId('theme').textContent = name === 'dark' ? 'Light' : 'Dark';
   }
@@ -346,11 +337,6 @@ class Explorer {
     if (sentence && isLoading) byId('headline').textContent = 'No answer yet';
   }
 
-  private redraw(): void {
-    this.cards.redraw(this.theme);
-    this.motions.follow();
-  }
-
   // ---- views ------------------------------------------------------------------------------------
 
   /** `returns`: to the drive that was explored before the story. */
@@ -366,10 +352,7 @@ class Explorer {
   private showView(): void {
     const { view } = this.state;
     document.body.classList.toggle('story', view === 'story');
-    for (const button of document.querySelectorAll<HTMLButtonElement>('[data-view]')) {
-      if (button.dataset.view === view) button.setAttribute('aria-current', 'page');
-      else button.removeAttribute('aria-current');
-    }
+    markCurrent(document.querySelectorAll('[data-view]'), ({ dataset }) => dataset.view === view, 'page');
     byId('story').hidden = view !== 'story';
     byId('thesis').hidden = view !== 'thesis';
     byId('drive').hidden = view === 'thesis';

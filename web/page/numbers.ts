@@ -10,20 +10,6 @@ export function short(value: number, digits = 4): string {
 /** The same as a core reads it. */
 export const typed = (value: number, digits = 4): string => String(Number(value.toPrecision(digits)));
 
-/** Round tics of an axis: at most `most` steps of 1, 2 or 5 times a power of ten. */
-export function tics(low: number, high: number, most: number): number[] {
-  const span = high - low;
-  if (!(span > 0)) return [low];
-  const raw = span / most;
-  const power = 10 ** Math.floor(Math.log10(raw));
-  const step = power * ([1, 2, 5, 10].find((factor) => factor * power >= raw * (1 - 1e-12)) ?? 10);
-  const first = Math.ceil(low / step - 1e-9);
-  const last = Math.floor(high / step + 1e-9);
-  const values: number[] = [];
-  for (let i = first; i <= last; ++i) values.push(Number((i * step).toPrecision(12)));
-  return values;
-}
-
 /** "gearbox.backlash" as words. */
 export const inWords = (path: string): string => (path.split('.')[1] ?? path).replaceAll('_', ' ');
 

@@ -1,93 +1,71 @@
-// Draws charts as SVG: axes, curves, areas, marks and a legend.
-import { escapeText, short, tics } from './numbers';
+// Draws the core's plots as SVG: panels below each other, with axes, curves, areas, marks and a legend.
+import { escapeText } from './numbers';
+import type * as core from './records';
 
-export interface Theme {
-  ink: string;
-  faint: string;
-  grid: string;
-  paper: string;
-  load: string;
-  motor: string;
-  gap: string;
-  accent: string;
-  stop: string;
-  good: string;
-}
+/** On white, as it is printed; a dark page inverts the whole picture. With enough contrast for text. */
+const theme = { ink: '#1c2430', faint: '#5a6472', grid: '#e3e7ec', paper: '#ffffff', accent: '#7a3f8f' };
 
-// Colours that colour-blind readers distinguish (Okabe and Ito), with enough contrast for text.
-export const light: Theme = {
-  ink: '#1c2430', faint: '#5a6472', grid: '#e3e7ec', paper: '#ffffff', load: '#0067a5', motor: '#c04f00',
-  gap: '#f3d9a4', accent: '#7a3f8f', stop: '#a40000', good: '#00705a',
-};
-export const dark: Theme = {
-  ink: '#e9edf2', faint: '#a5b0bd', grid: '#343d49', paper: '#171c23', load: '#5cb8f0', motor: '#ff9d57',
-  gap: '#5b4a26', accent: '#d7a3e8', stop: '#ff8f8f', good: '#57d0ae',
-};
+/** With its points: x and y by turns; NaN interrupts a line. */
+export type Layer = Omit<core.Layer, 'points'> & { points: Float64Array };
+export type Panel = Omit<core.Panel, 'layers'> & { layers: Layer[] };
 
-export interface PlotAxis {
-  label: string;
-  low: number;
-  high: number;
-  logarithmic?: boolean;
-  /** Default: round numbers. Without a text: a short mark. */
-  tics?: [string, number][];
-}
-
-/** x and y by turns; NaN interrupts a line. */
-export type Points = ArrayLike<number>;
-
-/** As the core has them, and two of the page. */
-export type Layer =
-  | {
-      kind: 'line' | 'area' | 'marks' | 'hatching';
-      /** In the legend, which each name enters once. */
-      name?: string;
-      colour: string;
-      points: Points;
-      width?: number;
-      dashes?: string;
-      mark?: string;
-      /** Of a mark; 1 is about the height of a letter. */
-      size?: number;
-    }
-  /** The one mark that moves: see moveMark(). */
-  | { kind: 'moving'; name: string; at: [number, number]; colour: string }
-  /** Across the whole height. */
-  | { kind: 'rule'; at: number; colour: string };
-
-export interface PlotText {
-  x: number;
-  y: number;
-  text: string;
-  colour: string;
-}
-
+/** A plot with its points, its axes as they are drawn, and a mark that moves: see moveMark(). */
 export interface Plot {
   title: string;
-  subtitle?: string;
+  subtitle: string;
   /** For readers that do not see the picture. */
   description: string;
-  x: PlotAxis;
-  y: PlotAxis;
-  layers: Layer[];
-  texts?: PlotText[];
+  columns: Panel[][];
+  /** A named place, or an x alone across all panels. */
+  moving: Place | null;
 }
 
-const frame = { left: 74, right: 14, top: 12 };
+export interface Place {
+  x: number;
+  y?: number;
+}
+
+const frame = { left: 74, right: 14, top: 12, between: 10, title: 22, bottom: 48 };
 const letter = 7.2;
 
 type Scale = (value: number) => number;
 
-function scale(axis: PlotAxis, from: number, to: number): Scale {
+function scale(axis: core.PlotAxis, from: number, to: number): Scale {
   const map = axis.logarithmic ? Math.log : (value: number) => value;
-  const low = map(axis.low);
-  const span = map(axis.high) - low || 1;
+  const low = map(axis.low!);
+  const span = map(axis.high!) - low || 1;
   return (value) => from + ((map(value) - low) / span) * (to - from);
+}
+
+/** A panel in its place on the picture. */
+interface Placed {
+  panel: Panel;
+  top: number;
+  bottom: number;
+  x: Scale;
+  y: Scale;
+  isLast: boolean;
+}
+
+/** All panels below each other; a column's last one has the numbers of its x axis. */
+function placed(plot: Plot, width: number): Placed[] {
+  const usual = width * (width < 460 ? 0.8 : 0.66) - frame.top - frame.bottom;
+  const least = 90; // px: room for the name of its axis
+  let top = frame.top;
+  return plot.columns.flatMap((column) =>
+    column.map((panel, i) => {
+      const isLast = i === column.length - 1;
+      if (panel.title) top += frame.title;
+      const place = { panel, top, bottom: Math.round(top + Math.max(least, (usual * panel.height) / 480)), isLast };
+      top = place.bottom + (isLast ? frame.bottom : frame.between);
+      return { ...place, x: scale(panel.x, frame.left, width - frame.right), y: scale(panel.y, place.bottom, place.top) };
+    }),
+  );
 }
 
 const at = (value: number): string => (Math.round(value * 100) / 100).toString();
 
-function pathOf(points: Points, x: Scale, y: Scale, closed: boolean): string {
+function pathOf(points: Float64Array, x: Scale, y: Scale, closed: boolean): string {
   const visible = 0.3; // px: points that are nearer to the last one are left out
   let path = '';
   let isDrawing = false;
@@ -129,93 +107,119 @@ function mark(shape: string, right: number, down: number, size: number, colour: 
   return `<circle cx="${at(right)}" cy="${at(down)}" r="${at(size)}" ${style}/>`;
 }
 
-const radius = (size: number | undefined): number => 5 * (size ?? 0.7);
+const radius = (size: number): number => 5 * size;
 
-/** The stroke of a line, or of hatching. */
-function strokeOf(layer: Layer & { dashes?: string; width?: number }): string {
-  const width = layer.kind === 'hatching' ? 0.6 : (layer.width ?? 1.8);
-  const dashes = layer.dashes?.split(',').map((length) => at(Number(length) * Math.max(0.8, width) * 0.7)).join(' ');
-  return `fill="none" stroke="${layer.colour}" stroke-width="${width}"${dashes ? ` stroke-dasharray="${dashes}"` : ''}`;
+function strokeOf({ colour, width, dashes }: Layer): string {
+  const lengths = dashes?.split(',').map((length) => at(Number(length) * Math.max(0.8, width) * 0.7)).join(' ');
+  return `fill="none" stroke="${colour}" stroke-width="${width}"${lengths ? ` stroke-dasharray="${lengths}"` : ''}`;
 }
 
-function layerText(layer: Layer, x: Scale, y: Scale, bottom: number): string {
-  switch (layer.kind) {
-    case 'line':
-    case 'hatching':
-      return `<path d="${pathOf(layer.points, x, y, false)}" ${strokeOf(layer)} stroke-linejoin="round"/>`;
-    case 'area':
-      return `<path d="${pathOf(layer.points, x, y, true)}" fill="${layer.colour}"/>`;
-    case 'marks': {
-      let text = '';
-      for (let i = 0; i + 1 < layer.points.length; i += 2) {
-        const right = x(layer.points[i]!);
-        const down = y(layer.points[i + 1]!);
-        if (Number.isFinite(right) && Number.isFinite(down)) text += mark(layer.mark ?? 'disc', right, down, radius(layer.size), layer.colour);
-      }
-      return text;
-    }
-    case 'moving':
-      return `<g class="moving" transform="translate(${at(x(layer.at[0]))} ${at(y(layer.at[1]))})">${mark('diamond', 0, 0, 6, layer.colour)}</g>`;
-    case 'rule':
-      return `<line x1="${at(x(layer.at))}" x2="${at(x(layer.at))}" y1="${frame.top}" y2="${bottom}" stroke="${layer.colour}" stroke-width="1.2"/>`;
+function layerText(layer: Layer, x: Scale, y: Scale): string {
+  if (layer.kind === 'area') return `<path d="${pathOf(layer.points, x, y, true)}" fill="${layer.colour}"/>`;
+  if (layer.kind === 'line') return `<path d="${pathOf(layer.points, x, y, false)}" ${strokeOf(layer)} stroke-linejoin="round"/>`;
+  let marks = '';
+  for (let i = 0; i + 1 < layer.points.length; i += 2) {
+    const [right, down] = [x(layer.points[i]!), y(layer.points[i + 1]!)];
+    if (Number.isFinite(right) && Number.isFinite(down)) marks += mark(layer.mark, right, down, radius(layer.size), layer.colour);
   }
+  return marks;
 }
 
-const ticsOf = (axis: PlotAxis, most: number): [string, number][] =>
-  axis.tics ?? tics(axis.low, axis.high, most).map((value) => [short(value, 6), value]);
-
-function axesText(plot: Plot, x: Scale, y: Scale, width: number, bottom: number, theme: Theme): string {
-  let text = '';
-  for (const [name, value] of ticsOf(plot.x, width < 460 ? 4 : 7)) {
-    const right = at(x(value));
-    if (name) text += `<line x1="${right}" x2="${right}" y1="${frame.top}" y2="${bottom}" stroke="${theme.grid}"/>`;
-    text += `<text x="${right}" y="${bottom + 17}" text-anchor="middle" fill="${theme.faint}" font-size="12">${name}</text>`;
+function axesText({ panel, top, bottom, x, y, isLast }: Placed, width: number): string {
+  const right = width - frame.right;
+  const [middle, centre] = [(frame.left + right) / 2, (top + bottom) / 2];
+  let text = panel.title ? `<text x="${middle}" y="${top - 7}" text-anchor="middle" fill="${theme.faint}" font-size="12.5">${escapeText(panel.title)}</text>` : '';
+  for (const tic of panel.x.tics) {
+    const place = at(x(tic.at));
+    if (tic.text && panel.x.has_grid) text += `<path d="M${place} ${top}V${bottom}" stroke="${theme.grid}"/>`;
+    if (tic.text && isLast) text += `<text x="${place}" y="${bottom + 17}" text-anchor="middle" fill="${theme.faint}" font-size="12">${escapeText(tic.text)}</text>`;
   }
-  for (const [name, value] of ticsOf(plot.y, 6)) {
-    const down = at(y(value));
-    if (name) text += `<line y1="${down}" y2="${down}" x1="${frame.left}" x2="${width - frame.right}" stroke="${theme.grid}"/>`;
-    text += `<text x="${frame.left - 7}" y="${Number(down) + 4}" text-anchor="end" fill="${theme.faint}" font-size="12">${name}</text>`;
+  for (const tic of panel.y.tics) {
+    const place = at(y(tic.at));
+    if (tic.text && panel.y.has_grid) text += `<path d="M${frame.left} ${place}H${right}" stroke="${theme.grid}"/>`;
+    if (tic.text) text += `<text x="${frame.left - 7}" y="${Number(place) + 4}" text-anchor="end" fill="${theme.faint}" font-size="12">${escapeText(tic.text)}</text>`;
   }
-  const middle = (frame.left + width - frame.right) / 2;
-  text += `<text x="${middle}" y="${bottom + 36}" text-anchor="middle" fill="${theme.ink}" font-size="13">${escapeText(plot.x.label)}</text>`;
-  const centre = (frame.top + bottom) / 2;
-  text += `<text x="16" y="${centre}" text-anchor="middle" fill="${theme.ink}" font-size="13" transform="rotate(-90 16 ${centre})">${escapeText(plot.y.label)}</text>`;
-  return text;
+  if (isLast) text += `<text x="${middle}" y="${bottom + 36}" text-anchor="middle" fill="${theme.ink}" font-size="13">${escapeText(panel.x.name ?? '')}</text>`;
+  return text + `<text x="16" y="${centre}" text-anchor="middle" fill="${theme.ink}" font-size="13" transform="rotate(-90 16 ${centre})">${escapeText(panel.y.name ?? '')}</text>`;
 }
 
-/** The layers of the legend: the first of each name. */
-const namedLayers = (layers: Layer[]): Layer[] =>
-  layers.filter((layer, i) => 'name' in layer && layer.name && layers.findIndex((other) => 'name' in other && other.name === layer.name) === i);
+let clips = 0;
 
-function sampleOf(layer: Layer, right: number, middle: number, theme: Theme): string {
-  const [from, to] = [right, right + 22];
-  if (layer.kind === 'area') return `<rect x="${from}" y="${middle - 6}" width="22" height="12" fill="${layer.colour}" stroke="${theme.faint}" stroke-width="0.5"/>`;
-  if (layer.kind === 'hatching') return `<path d="M${from} ${middle + 6}l6-12m2 12l6-12m2 12l6-12" ${strokeOf(layer)}/>`;
-  if (layer.kind === 'marks') return mark(layer.mark ?? 'disc', from + 11, middle, radius(layer.size), layer.colour);
-  if (layer.kind === 'moving') return mark('diamond', from + 11, middle, 5, layer.colour);
-  return `<path d="M${from} ${middle}H${to}" ${strokeOf(layer)}/>`;
+/** A panel with all that is in it. Marks at the end of an axis are drawn whole, others outside not at all. */
+function panelText(one: Placed, width: number): string {
+  const { panel, top, bottom, x, y } = one;
+  const clip = `clip${++clips}`;
+  const rectangle = (margin: number, style = ''): string =>
+    `<rect x="${frame.left - margin}" y="${top - margin}" width="${width - frame.left - frame.right + 2 * margin}" height="${bottom - top + 2 * margin}" ${style}/>`;
+  const text = (isOf: (layer: Layer) => boolean): string => panel.layers.filter(isOf).map((layer) => layerText(layer, x, y)).join('');
+  const words = panel.texts
+    .map((word) => `<text x="${at(x(word.at.x))}" y="${at(y(word.at.y) + 4)}" fill="${word.colour}" font-size="12" text-anchor="middle" paint-order="stroke" stroke="${theme.paper}" stroke-width="3">${escapeText(word.text)}</text>`)
+    .join('');
+  return (
+    `<clipPath id="${clip}">${rectangle(0)}</clipPath><clipPath id="${clip}m">${rectangle(7)}</clipPath>${axesText(one, width)}` +
+    `<g clip-path="url(#${clip})">${text((layer) => layer.kind !== 'marks')}${words}</g>${rectangle(0, `fill="none" stroke="${theme.faint}"`)}` +
+    `<g clip-path="url(#${clip}m)">${text((layer) => layer.kind === 'marks')}</g>`
+  );
+}
+
+/** Where a mark stands; one beside the panel is not shown. */
+function placeOf({ panel, x, y }: Placed, to: Place): { transform: string; visibility: string } {
+  const up = to.y !== undefined && panel.y.logarithmic ? Math.max(to.y, panel.y.low!) : to.y;
+  const isBeside = to.x < panel.x.low! || to.x > panel.x.high!;
+  return { transform: `translate(${at(x(to.x))} ${up === undefined ? 0 : at(y(up))})`, visibility: isBeside ? 'hidden' : 'visible' };
+}
+
+/** The mark that moves: a diamond, or a line across each panel. */
+const movingText = (panels: Placed[], place: Place): string =>
+  panels
+    .map((one) => {
+      const shape = place.y === undefined ? `<path d="M0 ${one.top}V${one.bottom}" stroke="${theme.accent}"/>` : mark('diamond', 0, 0, 6, theme.accent);
+      const { transform, visibility } = placeOf(one, place);
+      return `<g class="moving" transform="${transform}" visibility="${visibility}">${shape}</g>`;
+    })
+    .join('');
+
+/** Moves the mark of a picture. */
+export function moveMark(picture: Element, plot: Plot, to: Place): void {
+  const panels = placed(plot, picture.querySelector('svg')?.viewBox.baseVal.width ?? 0);
+  picture.querySelectorAll('.moving').forEach((element, i) => {
+    for (const [name, value] of Object.entries(placeOf(panels[i]!, to))) element.setAttribute(name, value);
+  });
+}
+
+/** The names of layers, each with a sample; the first of each name. */
+function legendOf(plot: Plot): Map<string, (right: number, middle: number) => string> {
+  const samples = new Map<string, (right: number, middle: number) => string>();
+  for (const layer of plot.columns.flat().flatMap((panel) => panel.layers)) {
+    if (!layer.name || samples.has(layer.name)) continue;
+    samples.set(layer.name, (right, middle) => {
+      if (layer.kind === 'area') return `<rect x="${right}" y="${middle - 6}" width="22" height="12" fill="${layer.colour}" stroke="${theme.faint}" stroke-width="0.5"/>`;
+      if (layer.kind === 'marks') return mark(layer.mark, right + 11, middle, radius(layer.size), layer.colour);
+      return `<path d="M${right} ${middle}h22" ${strokeOf(layer)}/>`;
+    });
+  }
+  if (plot.moving?.y !== undefined) samples.set('you are here', (right, middle) => mark('diamond', right + 11, middle, 5, theme.accent));
+  return samples;
 }
 
 /** The entries in lines, and the height that they take. */
-function legendText(layers: Layer[], top: number, width: number, theme: Theme): { text: string; height: number } {
+function legendText(plot: Plot, top: number, width: number): { text: string; height: number } {
   const line = 20;
   let text = '';
   let right = frame.left;
   let down = top;
-  for (const layer of layers) {
-    const name = 'name' in layer ? (layer.name ?? '') : '';
+  const entries = legendOf(plot);
+  for (const [name, sample] of entries) {
     const length = 30 + name.length * letter + 16;
     if (right > frame.left && right + length > width) {
       right = frame.left;
       down += line;
     }
-    text += `${sampleOf(layer, right, down - 4, theme)}<text x="${right + 28}" y="${down}" fill="${theme.ink}" font-size="12.5">${escapeText(name)}</text>`;
+    text += `${sample(right, down - 4)}<text x="${right + 28}" y="${down}" fill="${theme.ink}" font-size="12.5">${escapeText(name)}</text>`;
     right += length;
   }
-  return { text, height: layers.length > 0 ? down - top + line : 0 };
+  return { text, height: entries.size > 0 ? down - top + line : 0 };
 }
-
-let clips = 0;
 
 export interface Size {
   /** Of the place on the screen, px: letters keep their size. */
@@ -226,49 +230,24 @@ export interface Size {
   isMarkApart?: boolean;
 }
 
-function layout(plot: Plot, place: number | undefined): { width: number; height: number; bottom: number; x: Scale; y: Scale } {
-  const width = Math.max(320, Math.min(640, place || 640));
-  const height = Math.round(width * (width < 460 ? 0.8 : 0.66));
-  const bottom = height - 48;
-  return { width, height, bottom, x: scale(plot.x, frame.left, width - frame.right), y: scale(plot.y, bottom, frame.top) };
-}
-
-/** Moves the mark of a picture. */
-export function moveMark(picture: Element, plot: Plot, to: [number, number]): void {
-  const { x, y } = layout(plot, picture.querySelector('svg')?.viewBox.baseVal.width);
-  const up = plot.y.logarithmic ? Math.max(to[1], plot.y.low) : to[1];
-  picture.querySelector('.moving')?.setAttribute('transform', `translate(${at(x(to[0]))} ${at(y(up))})`);
-}
-
 /** The picture as SVG. */
-export function draw(plot: Plot, theme: Theme, size: Size = {}): string {
-  const { width, height, bottom, x, y } = layout(plot, size.width);
+export function draw(plot: Plot, size: Size = {}): string {
+  const width = Math.max(320, Math.min(640, size.width || 640));
+  const panels = placed(plot, width);
+  const height = panels.at(-1)!.bottom + frame.bottom;
   const heading = size.isTitled ? (plot.subtitle ? 50 : 30) : 0;
-  const legend = legendText(namedLayers(plot.layers), height + 6, width, theme);
+  const legend = legendText(plot, height + 6, width);
   const total = height + legend.height + heading;
-  const clip = `clip${++clips}`;
-  const text = (layers: Layer[]): string => layers.map((layer) => layerText(layer, x, y, bottom)).join('');
-  const words = (plot.texts ?? [])
-    .map((one) => `<text x="${at(x(one.x))}" y="${at(y(one.y) + 4)}" fill="${one.colour}" font-size="12" text-anchor="middle" paint-order="stroke" stroke="${theme.paper}" stroke-width="3">${escapeText(one.text)}</text>`)
-    .join('');
-  // Marks at the end of an axis are drawn whole, others outside not at all.
-  const isMark = (layer: Layer): boolean => layer.kind === 'marks' || layer.kind === 'moving';
-  const isApart = (layer: Layer): boolean => (size.isMarkApart ?? false) && layer.kind === 'moving';
-  const rectangle = (margin: number): string =>
-    `<rect x="${frame.left - margin}" y="${frame.top - margin}" width="${width - frame.left - frame.right + 2 * margin}" height="${bottom - frame.top + 2 * margin}"/>`;
   const title = size.isTitled
     ? `<text x="${frame.left}" y="20" fill="${theme.ink}" font-size="15" font-weight="600">${escapeText(plot.title)}</text>` +
-      (plot.subtitle ? `<text x="${frame.left}" y="40" fill="${theme.faint}" font-size="12.5">${escapeText(plot.subtitle)}</text>` : '')
+      `<text x="${frame.left}" y="40" fill="${theme.faint}" font-size="12.5">${escapeText(plot.subtitle)}</text>`
     : '';
+  const isTime = plot.moving?.y === undefined; // which files do not show
+  const moving = plot.moving && (size.isMarkApart || !isTime) ? movingText(panels, plot.moving) : '';
   return (
     `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${total}" role="img" aria-label="${escapeText(`${plot.title}. ${plot.description}`)}" font-family="system-ui, sans-serif">` +
     `<rect width="${width}" height="${total}" fill="${theme.paper}"/>${title}` +
-    `<g transform="translate(0 ${heading})"><clipPath id="${clip}">${rectangle(0)}</clipPath><clipPath id="${clip}m">${rectangle(7)}</clipPath>` +
-    axesText(plot, x, y, width, bottom, theme) +
-    `<g clip-path="url(#${clip})">${text(plot.layers.filter((layer) => !isMark(layer)))}${words}</g>` +
-    `<rect x="${frame.left}" y="${frame.top}" width="${width - frame.left - frame.right}" height="${bottom - frame.top}" fill="none" stroke="${theme.faint}"/>` +
-    `<g clip-path="url(#${clip}m)">${text(plot.layers.filter((layer) => isMark(layer) && !isApart(layer)))}</g>` +
-    `${legend.text}</g></svg>` +
-    (plot.layers.some(isApart) ? `<svg class="overlay" viewBox="0 0 ${width} ${total}" aria-hidden="true">${text(plot.layers.filter(isApart))}</svg>` : '')
+    `<g transform="translate(0 ${heading})">${panels.map((one) => panelText(one, width)).join('')}${size.isMarkApart ? '' : moving}${legend.text}</g></svg>` +
+    (size.isMarkApart && moving ? `<svg class="overlay" viewBox="0 0 ${width} ${total}" aria-hidden="true">${moving}</svg>` : '')
   );
 }

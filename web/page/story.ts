@@ -1,4 +1,5 @@
 // The guided story: seven steps, each with one control and one sentence.
+import { addButton, byId, markCurrent } from './elements';
 import { type Changed, Inputs, only } from './inputs';
 import type { DriveText, Fault, Parameter } from './replies';
 
@@ -70,8 +71,6 @@ export const storySteps = (joint: string): StoryStep[] => [
   },
 ];
 
-const byId = (id: string): HTMLElement => document.getElementById(id)!;
-
 export class Story {
   private readonly inputs: Inputs;
 
@@ -113,13 +112,9 @@ export class Story {
     list.textContent = '';
     this.steps.forEach(({ title }, i) => {
       const item = document.createElement('li');
-      const button = document.createElement('button');
-      button.type = 'button';
-      button.textContent = `${i + 1}. ${title}`;
-      if (i + 1 === present) button.setAttribute('aria-current', 'step');
-      button.onclick = () => this.goTo(i + 1);
-      item.append(button);
+      addButton(item, `${i + 1}. ${title}`, () => this.goTo(i + 1));
       list.append(item);
     });
+    markCurrent([list.children[present - 1]!.firstElementChild!], () => true, 'step');
   }
 }

@@ -1,11 +1,11 @@
 // What takes longer than an answer: the map or chart with the border of hunting, and the nearest
 // changes.
-import type { Card, Cards } from './cards';
+import type { Cards } from './cards';
 import { type Lane, Overtaken, patiently } from './core';
+import { byId } from './elements';
 import { titleOf } from './inputs';
 import { escapeText, inWords, typed } from './numbers';
 import { plotOf } from './pictures';
-import type { Plot, Theme } from './plot';
 import type { AnswerReply, DriveReply, DriveText, MapReply, MarginsReply, Parameter, Replied } from './replies';
 import { quoted, setOptions } from './state';
 import { wordsOf } from './words';
@@ -15,7 +15,6 @@ interface Page {
   drive(): DriveText;
   facts(): DriveReply;
   answer(): AnswerReply | null;
-  theme(): Theme;
   /** The axes that were chosen: paths, the second may be ''. */
   axes(): { x: string; y: string };
   change(path: string, text: string): void;
@@ -24,8 +23,6 @@ interface Page {
 /** Points on each axis: a closed form is solved at once, a search takes a second. */
 const pointsOf = { map: { closed: 41, searched: 7 }, chart: { closed: 61, searched: 13 } };
 const seconds = 120;
-
-const byId = (id: string): HTMLElement => document.getElementById(id)!;
 
 /** Fills a list with the parameters by section, after `none`. */
 function listPaths(list: HTMLSelectElement, paths: string[], chosen: string, none?: string): void {
@@ -55,15 +52,15 @@ export function listAxes(facts: DriveReply, chosen: { x: string; y: string }): {
     y = facts.is_searched ? '' : (usual.find((path) => path === 'servo.damping') ?? usual.find((path) => path !== x) ?? '');
   }
   if (!paths.includes(y)) y = '';
-  listPaths(byId('map-x') as HTMLSelectElement, paths, x);
-  listPaths(byId('map-y') as HTMLSelectElement, paths, y, 'nothing else');
+  listPaths(byId<HTMLSelectElement>('map-x'), paths, x);
+  listPaths(byId<HTMLSelectElement>('map-y'), paths, y, 'nothing else');
   return { x, y };
 }
 
 export class Studies {
   private map: { replied: Replied<MapReply>; key: string } | null = null;
-  /** The map as it is on the page; its mark can be moved. */
-  private drawn: { map: object; plot: Plot } | null = null;
+  /** The map that is on the page with a mark, which can be moved. */
+  private drawn: object | null = null;
   private job = 0;
 
   constructor(
@@ -166,19 +163,13 @@ export class Studies {
     const answer = this.page.answer();
     if (!this.map || !answer) return;
     const { reply, numbers } = this.map.replied;
-    const on = (axis: { path: string; unit_in_si: number }): number | null => this.here(axis.path, axis.unit_in_si);
     const cycle = answer.answer.cycles.find((one) => one.stability !== 'unstable');
-    const x = on(reply.axes.x);
-    const y = reply.axes.y ? on(reply.axes.y) : (cycle?.amplitude ?? 0) / answer.unit_in_si;
-    const place: [number, number] | null = x !== null && y !== null ? [x, y] : null;
-    const card: Card = { plot: (theme) => plotOf(reply.plot, numbers, theme, place) };
-    if (this.drawn?.map === this.map && place) {
-      this.cards.move('map', card, this.drawn.plot, place);
-      return;
-    }
-    const plot = card.plot(this.page.theme());
-    this.drawn = place ? { map: this.map, plot } : null;
-    this.cards.put('map', card, this.page.theme());
+    const x = this.here(reply.x.path, reply.x.unit_in_si);
+    const y = reply.y ? this.here(reply.y.path, reply.y.unit_in_si) : (cycle?.amplitude ?? 0) / answer.unit_in_si;
+    const place = x !== null && y !== null ? { x, y } : null;
+    if (place && this.drawn === this.map) return this.cards.move('map', place);
+    this.cards.put('map', plotOf(reply.plot, numbers, place));
+    this.drawn = place && this.map;
   }
 
   // ---- changes ----------------------------------------------------------------------------------
