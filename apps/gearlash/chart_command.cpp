@@ -1,15 +1,9 @@
 // gearlash chart: a family of curves over any parameters of the drive.
 #include <fmt/format.h>
 
-#include <memory>
-
-#include "command.hpp"
 #include "grid_options.hpp"
-#include "machine_faults.hpp"
-#include "output/output_file.hpp"
 #include "picture/bifurcation_picture.hpp"
 #include "picture/grid_chart.hpp"
-#include "terminal.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -97,21 +91,15 @@ ExitStatus run(const ChartOptions& options, const Provenance& provenance) {
 
 }  // namespace
 
-void add_chart_command(Command& app, Action& action) {
-  const auto options = std::make_shared<ChartOptions>();
-  Command* command =
-      app.add_subcommand("chart", "Draw a family of curves over any parameters of a drive");
-  command->add_option("--x AXIS", options->x, axis_help)->required();
-  command->add_option("--curves AXIS", options->curves,
-                      "Draw one curve for each value of this axis");
-  add_grid_options(*command, options->grid,
+void add_chart_command(const Command& app, Action& action) {
+  const auto [command, options] = add_verb<ChartOptions>(
+      app, action, "chart", "Draw a family of curves over any parameters of a drive",
+      backlashes_explanation + help_footer(chart_examples), run);
+  command.add_option("--x AXIS", options.x, axis_help, {.is_required = true});
+  command.add_option("--curves AXIS", options.curves, "Draw one curve for each value of this axis");
+  add_grid_options(command, options.grid,
                    "Draw curves=FILE, the quantity over --x, or bifurcation=FILE, all cycles over "
                    "--x as stable and unstable branches with their borders;");
-  set_action(
-      *command, action, options,
-      "Without --backlash, amplitudes are in backlashes, because they are proportional to it.\n\n" +
-          help_footer(chart_examples),
-      run);
 }
 
 }  // namespace gearlash::cli

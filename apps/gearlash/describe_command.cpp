@@ -1,18 +1,11 @@
 // gearlash describe: what describing functions predict, beside the exact cycle.
 #include <algorithm>
-#include <memory>
 
-#include "command.hpp"
 #include "gearlash/analyse.hpp"
 #include "input/units.hpp"
-#include "limit_options.hpp"
-#include "machine_faults.hpp"
 #include "output/describe_report.hpp"
-#include "output/output_file.hpp"
 #include "picture/nyquist_picture.hpp"
-#include "plot_option.hpp"
-#include "servo_options.hpp"
-#include "terminal.hpp"
+#include "verb.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -116,36 +109,30 @@ ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
   const Answer answer = searched(written->drive, work);
   const DescribeReport report =
       describe_report_of(written->drive, answer, written->angle, provenance);
-  Extras extras;
-  extras.print(options.format == "json" ? describe_json(report)
-                                        : with_bold_headline(describe_text(report)));
   const bool decided = answer.verdict != Verdict::undecided;
-  if (!decided) report_lines("the exact answer is undecided");
-  const ExitStatus status = end_work(work, decided ? ExitStatus::done : ExitStatus::undecided,
-                                     "the search is not complete");
-  for (const PlotFile& plot : plots) {
-    extras.make([&] { write_plot(plot, plot_of(report, options)); });
-  }
-  return extras.status(status);
+  return give({.text = options.format == "json" ? describe_json(report)
+                                                : with_bold_headline(describe_text(report)),
+               .remark = decided ? "" : "the exact answer is undecided",
+               .is_decided = decided,
+               .unknown = "the search is not complete"},
+              work, plots, [&](const PlotFile&) { return plot_of(report, options); });
 }
 
 }  // namespace
 
-void add_describe_command(Command& app, Action& action) {
-  const auto options = std::make_shared<DescribeOptions>();
-  Command* command = app.add_subcommand(
-      "describe", "Compare what describing functions predict with the exact cycle");
-  add_servo_or_drive_options(*command, options->servo);
-  command->add_option("--format FORMAT", options->format,
-                      "Choose the format: text (default) or json");
-  add_plot_option(*command, options->plots,
+void add_describe_command(const Command& app, Action& action) {
+  const auto [command, options] = add_verb<DescribeOptions>(
+      app, action, "describe", "Compare what describing functions predict with the exact cycle",
+      describe_explanation + help_footer(describe_examples), run);
+  add_servo_or_drive_options(command, options.servo);
+  add_format_option(command, options.format);
+  add_plot_option(command, options.plots,
                   "Draw nyquist=FILE, the loop's gain against -1/N, with the exact cycle;");
-  command->add_option(
-      "--part PART", options->part,
+  command.add_option(
+      "--part PART", options.part,
       "Draw this part: gap, elastic-gap, torque-limit, coulomb-friction, dead-band or "
       "relay; default the first part in the loop");
-  add_limit_options(*command, options->limits);
-  set_action(*command, action, options, describe_explanation + help_footer(describe_examples), run);
+  add_limit_options(command, options.limits);
 }
 
 }  // namespace gearlash::cli

@@ -3,24 +3,17 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <memory>
 #include <utility>
 
 #include "base/progress_part.hpp"
-#include "command.hpp"
 #include "grid_options.hpp"
 #include "input/axis_text.hpp"
-#include "limit_options.hpp"
-#include "machine_faults.hpp"
 #include "output/design_report.hpp"
-#include "output/output_file.hpp"
 #include "picture/grid_map.hpp"
-#include "plot_option.hpp"
 #include "question/axis.hpp"
 #include "question/change/design.hpp"
 #include "question/change/values.hpp"
-#include "servo_options.hpp"
-#include "terminal.hpp"
+#include "verb.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -172,58 +165,46 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
   const auto known = static_cast<std::size_t>(
       std::count_if(report.design.parameters.begin(), report.design.parameters.end(),
                     [](const DesignedParameter& one) { return !one.values.stopped; }));
-  Extras extras;
-  extras.print(options.format == "json" ? design_json(report) : design_text(report));
-  const ExitStatus status = end_work(work, ExitStatus::done, unknown_text(known, axes.size()));
-  if (plots.empty()) return extras.status(status);
-  const GridTable table = work_out(region, work, provenance).table;
-  for (const PlotFile& plot : plots) {
-    extras.make([&] {
-      if (work.is_stopped()) {
-        throw OutputError(plot.file + ": not drawn: the work was stopped before");
-      }
-      write_plot(plot, map_plot(table, region.quantity));
-    });
-  }
-  return extras.status(status);
+  std::optional<GridTable> table;
+  return give({.text = options.format == "json" ? design_json(report) : design_text(report),
+               .unknown = unknown_text(known, axes.size())},
+              work, plots, [&](const PlotFile& plot) {
+                if (!table) table = work_out(region, work, provenance).table;
+                if (work.is_stopped()) refuse_to_draw(plot);
+                return map_plot(*table, region.quantity);
+              });
 }
 
 }  // namespace
 
-void add_design_command(Command& app, Action& action) {
-  const auto options = std::make_shared<DesignOptions>();
-  Command* command =
-      app.add_subcommand("design", "Find the changes that stop the hunting or meet another target");
-  add_servo_or_drive_options(*command, options->servo);
-  command
-      ->add_option("--target TARGET", options->target,
-                   "Set the target: no-hunting, no-hunting-if-disturbed or no-runaway; or "
-                   "amplitude, frequency, ceiling, bandwidth or any other quantity, then <= or >=, "
-                   "then a limit; \"and\" joins several")
-      ->required();
-  command
-      ->add_option("--parameters NAMES", options->parameters,
-                   "List the parameters that may change, separated by commas: any number or choice "
-                   "by its path, such as gearbox.ratio, or with a range, PATH=FROM:TO:COUNT[:log], "
-                   "with units; default those of --vary, else those that are easiest to change. "
-                   "Without a range: 0.001 to 1000 times the present value where the closed form "
-                   "answers, else 0.1 to 10 times")
-      ->delimiter(',');
-  command
-      ->add_option("--vary X,Y", options->vary,
-                   "Choose two parameters, separated by a comma, each with or without a range; "
-                   "--plot draws where both together meet the target")
-      ->delimiter(',');
-  command->add_option(
-      "--quantity NAME", options->quantity,
-      "Draw contours of this quantity beside it: bandwidth (default), phase-margin, "
-      "amplitude, …");
-  add_plot_option(*command, options->plots,
+void add_design_command(const Command& app, Action& action) {
+  const auto [command, options] = add_verb<DesignOptions>(
+      app, action, "design", "Find the changes that stop the hunting or meet another target",
+      help_footer(design_examples), run);
+  add_servo_or_drive_options(command, options.servo);
+  command.add_option("--target TARGET", options.target,
+                     "Set the target: no-hunting, no-hunting-if-disturbed or no-runaway; or "
+                     "amplitude, frequency, ceiling, bandwidth or any other quantity, then <= or "
+                     ">=, then a limit; \"and\" joins several",
+                     {.is_required = true});
+  command.add_option(
+      "--parameters NAMES", options.parameters,
+      "List the parameters that may change, separated by commas: any number or choice by its path, "
+      "such as gearbox.ratio, or with a range, PATH=FROM:TO:COUNT[:log], with units; default those "
+      "of --vary, else those that are easiest to change. Without a range: 0.001 to 1000 times the "
+      "present value where the closed form answers, else 0.1 to 10 times",
+      {.delimiter = ','});
+  command.add_option("--vary X,Y", options.vary,
+                     "Choose two parameters, separated by a comma, each with or without a range; "
+                     "--plot draws where both together meet the target",
+                     {.delimiter = ','});
+  command.add_option("--quantity NAME", options.quantity,
+                     "Draw contours of this quantity beside it: bandwidth (default), phase-margin, "
+                     "amplitude, …");
+  add_plot_option(command, options.plots,
                   "Draw region=FILE, where the parameters of --vary meet the target;");
-  command->add_option("--format FORMAT", options->format,
-                      "Choose the format: text (default) or json");
-  add_limit_options(*command, options->limits);
-  set_action(*command, action, options, help_footer(design_examples), run);
+  add_format_option(command, options.format);
+  add_limit_options(command, options.limits);
 }
 
 }  // namespace gearlash::cli

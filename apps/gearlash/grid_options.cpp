@@ -10,13 +10,10 @@
 
 #include "base/progress_part.hpp"
 #include "base/range_check.hpp"
-#include "machine_faults.hpp"
-#include "picture/gnuplot_renderer.hpp"
 #include "picture/grid_map.hpp"
 #include "question/family/evaluation.hpp"
 #include "question/map/grid_pieces.hpp"
 #include "question/map/hunting_boundary.hpp"
-#include "terminal.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -180,7 +177,7 @@ void write_table(const GridTask& task, const GridTable& table, const RowCount& c
 
 }  // namespace
 
-void add_grid_options(Command& command, GridOptions& options, const std::string& drawing) {
+void add_grid_options(const Command& command, GridOptions& options, const std::string& drawing) {
   command.add_option("--quantity NAME", options.quantity,
                      "Draw this quantity: amplitude (default), period, growth_at_rest, …");
   command.add_option("--output FILE", options.output,

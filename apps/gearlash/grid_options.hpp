@@ -6,13 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "command.hpp"
 #include "input/axis_text.hpp"
-#include "limit_options.hpp"
 #include "output/grid_netcdf.hpp"
 #include "output/grid_table.hpp"
-#include "plot_option.hpp"
-#include "servo_options.hpp"
+#include "verb.hpp"
 
 namespace gearlash::cli {
 
@@ -39,8 +36,12 @@ inline constexpr char axis_help[] =
     "PATH=A,B,C, with units; PATH is any number or choice of the drive,\n"
     "or damping, inertia-ratio, … of the normal form";
 
+/// Precedes the examples in the help.
+inline constexpr char backlashes_explanation[] =
+    "Without --backlash, amplitudes are in backlashes, because they are proportional to it.\n\n";
+
 /// --quantity, --output, --plot (whose kind draws `drawing`) and the options of the drive.
-void add_grid_options(Command& command, GridOptions& options, const std::string& drawing);
+void add_grid_options(const Command& command, GridOptions& options, const std::string& drawing);
 
 struct GridTask {
   std::string verb{};  ///< "chart", "map"

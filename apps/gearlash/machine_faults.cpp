@@ -33,18 +33,4 @@ bool is_within_means(const std::function<void()>& work) {
   return false;
 }
 
-void Extras::print(const std::string& answer) {
-  make([&] { write_file("-", answer); });
-}
-
-void Extras::make(const std::function<void()>& work) {
-  try {
-    if (!is_within_means(work)) failure_ = ExitStatus::beyond_means;
-  } catch (const InvalidInput& error) {  // what the answer shows to be impossible
-    report_lines(error.what());
-    if (!failure_) failure_ = ExitStatus::bad_input;
-  } catch (const ReaderGone&) {  // of a pipe that a picture went into
-  }
-}
-
 }  // namespace gearlash::cli

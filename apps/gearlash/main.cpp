@@ -10,10 +10,8 @@
 #include <vector>
 
 #include "base/fault.hpp"
-#include "command.hpp"
 #include "gearlash/version.hpp"
-#include "machine_faults.hpp"
-#include "output/output_file.hpp"
+#include "verb.hpp"
 
 namespace gearlash::cli {
 namespace {

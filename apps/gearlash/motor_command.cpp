@@ -1,11 +1,8 @@
 // gearlash motor: from the data sheet to the numbers of the charts, step by step.
-#include <memory>
 
-#include "command.hpp"
 #include "input/units.hpp"
 #include "motor_procedure.hpp"
-#include "output/output_file.hpp"
-#include "servo_options.hpp"
+#include "verb.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -39,16 +36,13 @@ ExitStatus run(const ServoOptions& options, const Provenance&) {
 
 }  // namespace
 
-void add_motor_command(Command& app, Action& action) {
-  const auto options = std::make_shared<ServoOptions>();
-  Command* command = app.add_subcommand(
-      "motor", "Convert a data sheet to the numbers of the charts, step by step");
-  command
-      ->add_option("DRIVE.toml", options->file,
-                   "Read this data sheet (docs/reference/data-sheets.md)")
-      ->required();
-  add_set_option(*command, *options);
-  set_action(*command, action, options, help_footer(motor_examples), run);
+void add_motor_command(const Command& app, Action& action) {
+  const auto [command, options] = add_verb<ServoOptions>(
+      app, action, "motor", "Convert a data sheet to the numbers of the charts, step by step",
+      help_footer(motor_examples), run);
+  command.add_option("DRIVE.toml", options.file,
+                     "Read this data sheet (docs/reference/data-sheets.md)", {.is_required = true});
+  add_set_option(command, options);
 }
 
 }  // namespace gearlash::cli

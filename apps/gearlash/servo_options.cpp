@@ -89,22 +89,21 @@ std::vector<Setting> settings_of(const ServoOptions& options, Faults& faults) {
 
 }  // namespace
 
-void add_set_option(Command& command, ServoOptions& options) {
-  command
-      .add_option("--set PATH=VALUE", options.settings,
-                  "Set any parameter of the drive by its path, with its unit: "
-                  "gearbox.backlash=\"12 arcmin\"; repeatable; gearlash show lists the paths")
-      ->allow_extra_args(false)
-      ->group(servo_group);
+void add_set_option(const Command& command, ServoOptions& options) {
+  command.add_option("--set PATH=VALUE", options.settings,
+                     "Set any parameter of the drive by its path, with its unit: "
+                     "gearbox.backlash=\"12 arcmin\"; repeatable; gearlash show lists the paths",
+                     {.group = servo_group, .takes_one_word = true});
 }
 
-void add_drive_options(Command& command, ServoOptions& options, const std::string& sensor_help) {
+void add_drive_options(const Command& command, ServoOptions& options,
+                       const std::string& sensor_help) {
   for (std::size_t i = 0; i < options.numbers.size(); ++i) {
     const auto& [help, type] = number_options[i];
     const std::string name = option_name(normal_form_numbers[i].name) + " " + type;
-    command.add_option(name, options.numbers[i], help)->group(servo_group);
+    command.add_option(name, options.numbers[i], help, {.group = servo_group});
   }
-  command.add_option("--sensor SHAFT", options.sensor, sensor_help)->group(servo_group);
+  command.add_option("--sensor SHAFT", options.sensor, sensor_help, {.group = servo_group});
   add_set_option(command, options);
 }
 
@@ -133,14 +132,14 @@ std::string option_name(std::string field) {
   return "--" + field;
 }
 
-void add_servo_options(Command& command, ServoOptions& options) {
+void add_servo_options(const Command& command, ServoOptions& options) {
   command.add_option("DRIVE.toml", options.file,
                      "Read the servo from this file: a data sheet or normalised servo "
                      "(docs/reference/data-sheets.md); - is standard input");
   add_drive_options(command, options, "Set the shaft with the position sensor: load");
 }
 
-void add_servo_or_drive_options(Command& command, ServoOptions& options) {
+void add_servo_or_drive_options(const Command& command, ServoOptions& options) {
   command.add_option(
       "DRIVE.toml", options.file,
       "Read the drive from this file: a data sheet or normalised servo "

@@ -37,10 +37,11 @@ struct ServoOptions {
 std::string option_name(std::string field);
 
 /// Without the file.
-void add_drive_options(Command& command, ServoOptions& options, const std::string& sensor_help);
-void add_servo_options(Command& command, ServoOptions& options);
+void add_drive_options(const Command& command, ServoOptions& options,
+                       const std::string& sensor_help);
+void add_servo_options(const Command& command, ServoOptions& options);
 /// The same for a command that takes any drive.
-void add_servo_or_drive_options(Command& command, ServoOptions& options);
+void add_servo_or_drive_options(const Command& command, ServoOptions& options);
 
 /// A file of a command: its use, such as "--output", and its name.
 struct FileUse {
@@ -49,7 +50,7 @@ struct FileUse {
 };
 
 /// --set PATH=VALUE, repeatable.
-void add_set_option(Command& command, ServoOptions& options);
+void add_set_option(const Command& command, ServoOptions& options);
 
 /// Collects the faults of a command line, so that all of them are reported at once.
 class Faults {

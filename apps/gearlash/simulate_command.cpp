@@ -3,23 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <cstring>
 
 #include "base/range_check.hpp"
-#include "command.hpp"
 #include "gearlash/motion.hpp"
 #include "general/attractors/search_setting.hpp"
 #include "input/units.hpp"
-#include "limit_options.hpp"
-#include "machine_faults.hpp"
 #include "output/answer_report.hpp"
 #include "output/motion_report.hpp"
 #include "picture/motion_picture.hpp"
-#include "plot_option.hpp"
 #include "question/analyse.hpp"
 #include "question/motion.hpp"
-#include "servo_options.hpp"
-#include "terminal.hpp"
+#include "verb.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -37,10 +32,10 @@ constexpr double most_samples = 1e7;
 
 struct SimulateOptions {
   ServoOptions servo;
-  std::string initial_position = "0";
-  std::string initial_speed = "0";
+  std::optional<std::string> initial_position;
+  std::optional<std::string> initial_speed;
   std::optional<std::string> initial_gap;
-  std::string initial_gap_speed = "0";
+  std::optional<std::string> initial_gap_speed;
   std::optional<std::string> reference;
   std::optional<std::string> until;
   std::optional<std::string> every;
@@ -50,6 +45,33 @@ struct SimulateOptions {
   std::string output = "-";
   LimitOptions limits;
 };
+
+/// An option of the motion.
+struct MotionOption {
+  const char* name;  ///< with what the help shows for its value
+  const char* path;  ///< of its faults; empty where simulate() has none
+  std::optional<std::string> SimulateOptions::*typed;
+  const char* help;
+};
+
+constexpr MotionOption motion_options[] = {
+    {"--initial-position ANGLE", "start.load_position", &SimulateOptions::initial_position,
+     "Set the initial position of the load; default 0"},
+    {"--initial-speed SPEED", "start.load_speed", &SimulateOptions::initial_speed,
+     "Set the initial speed of both shafts; default 0; --initial-gap-speed adds to the motor's"},
+    {"--initial-gap ANGLE", "start.gap", &SimulateOptions::initial_gap,
+     "Set the initial position of the motor minus that of the load, within half the backlash each "
+     "way; default on the face that the reference pulls to"},
+    {"--initial-gap-speed SPEED", "start.gap_speed", &SimulateOptions::initial_gap_speed,
+     "Set the initial speed of the motor minus that of the load; default 0"},
+    {"--reference ANGLE", "", &SimulateOptions::reference,
+     "Set a constant reference; default the file's reference, else a step of five backlashes, at "
+     "least twenty encoder counts and three times the error that friction holds"},
+    {"--until TIME", "until", &SimulateOptions::until,
+     "Set the end time; default 10 periods of the loop plus twice the settling time of the "
+     "signals; pictures go on for eight periods of slow hunting"},
+    {"--every TIME", "", &SimulateOptions::every,
+     "Set the time between samples; default a thousandth of --until"}};
 
 /// The task, in SI.
 struct SimulateRequest {
@@ -61,17 +83,18 @@ struct SimulateRequest {
 };
 
 Start read_start(const SimulateOptions& options, Faults& faults) {
-  const auto angle = [&](const char* field, const std::string& text) {
-    return faults.collect([&] { return read_angle(field, text).si; }, 0.0);
+  const auto angle = [&](const char* field, const std::optional<std::string>& text) {
+    return faults.collect([&] { return text ? read_angle(field, *text).si : 0.0; }, 0.0);
   };
-  const auto speed = [&](const char* field, const std::string& text) {
-    return faults.collect([&] { return read_si(field, text, dimensions::angular_speed); }, 0.0);
+  const auto speed = [&](const char* field, const std::optional<std::string>& text) {
+    const auto read = [&] { return text ? read_si(field, *text, dimensions::angular_speed) : 0.0; };
+    return faults.collect(read, 0.0);
   };
   Start start{.load_position = angle("--initial-position", options.initial_position),
               .load_speed = speed("--initial-speed", options.initial_speed),
               .gap = std::nullopt,
               .gap_speed = speed("--initial-gap-speed", options.initial_gap_speed)};
-  if (options.initial_gap) start.gap = angle("--initial-gap", *options.initial_gap);
+  if (options.initial_gap) start.gap = angle("--initial-gap", options.initial_gap);
   return start;
 }
 
@@ -149,18 +172,12 @@ Motion simulated(const SimulateRequest& task, const SimulateOptions& options, Li
     return simulate(task.written.drive, {.until = task.until, .start = task.start}, progress);
   } catch (const InvalidInput& error) {
     std::vector<Fault> faults = error.faults();
-    const auto name = [](Fault& fault, const char* path, const char* option,
-                         const std::string& typed) {
-      if (fault.path != path) return;
-      fault.path = option;
-      fault.value = shown(typed);
-    };
     for (Fault& fault : faults) {
-      name(fault, "until", "--until", options.until.value_or(fault.value));
-      name(fault, "start.gap", "--initial-gap", options.initial_gap.value_or(fault.value));
-      name(fault, "start.load_position", "--initial-position", options.initial_position);
-      name(fault, "start.load_speed", "--initial-speed", options.initial_speed);
-      name(fault, "start.gap_speed", "--initial-gap-speed", options.initial_gap_speed);
+      for (const MotionOption& option : motion_options) {
+        if (fault.path != option.path) continue;
+        fault.path = std::string(option.name, std::strchr(option.name, ' '));
+        fault.value = shown((options.*option.typed).value_or(fault.value));
+      }
     }
     throw InvalidInput(faults);
   }
@@ -283,52 +300,28 @@ ExitStatus run(const SimulateOptions& options, const Provenance& provenance) {
   return extras.status(status);
 }
 
-void add_start_options(Command& command, SimulateOptions& options) {
-  constexpr char group[] = "Motion (in rad, s and rad/s, or with a unit: \"50 ms\", \"3 rpm\")";
-  const auto add = [&](const char* name, auto& typed, const char* help) {
-    command.add_option(name, typed, help)->group(group);
-  };
-  add("--initial-position ANGLE", options.initial_position,
-      "Set the initial position of the load; default 0");
-  add("--initial-speed SPEED", options.initial_speed,
-      "Set the initial speed of both shafts; default 0; --initial-gap-speed adds to "
-      "the motor's");
-  add("--initial-gap ANGLE", options.initial_gap,
-      "Set the initial position of the motor minus that of the load, within half the "
-      "backlash each way; default on the face that the reference pulls to");
-  add("--initial-gap-speed SPEED", options.initial_gap_speed,
-      "Set the initial speed of the motor minus that of the load; default 0");
-  add("--reference ANGLE", options.reference,
-      "Set a constant reference; default the file's reference, else a step of five "
-      "backlashes, at least twenty encoder counts and three times the error that "
-      "friction holds");
-  add("--until TIME", options.until,
-      "Set the end time; default 10 periods of the loop plus twice the settling time "
-      "of the signals; pictures go on for eight periods of slow hunting");
-  add("--every TIME", options.every,
-      "Set the time between samples; default a thousandth of --until");
-}
-
 }  // namespace
 
-void add_simulate_command(Command& app, Action& action) {
-  const auto options = std::make_shared<SimulateOptions>();
-  Command* command =
-      app.add_subcommand("simulate", "Compute the exact motion after a step or a disturbance");
-  add_servo_or_drive_options(*command, options->servo);
-  add_start_options(*command, *options);
-  command->add_flag(
-      "--events", options->events,
+void add_simulate_command(const Command& app, Action& action) {
+  const auto [command, options] = add_verb<SimulateOptions>(
+      app, action, "simulate", "Compute the exact motion after a step or a disturbance",
+      help_footer(simulate_examples), run);
+  add_servo_or_drive_options(command, options.servo);
+  const OptionRules rules{.group =
+                              "Motion (in rad, s and rad/s, or with a unit: \"50 ms\", \"3 rpm\")"};
+  for (const MotionOption& option : motion_options) {
+    command.add_option(option.name, options.*option.typed, option.help, rules);
+  }
+  command.add_flag(
+      "--events", options.events,
       "List events (faces meet, part; shafts stick) instead of samples; JSON has both");
-  command->add_option("--format FORMAT", options->format,
-                      "Choose the format: csv (default) or json");
-  add_plot_option(*command, options->plots,
+  command.add_option("--format FORMAT", options.format, "Choose the format: csv (default) or json");
+  add_plot_option(command, options.plots,
                   "Draw time=FILE, the response, the gap and the torque, or phase=FILE, the phase "
                   "plane;");
-  command->add_option("--output FILE", options->output,
-                      "Write the table to this file; default standard output");
-  add_limit_options(*command, options->limits);
-  set_action(*command, action, options, help_footer(simulate_examples), run);
+  command.add_option("--output FILE", options.output,
+                     "Write the table to this file; default standard output");
+  add_limit_options(command, options.limits);
 }
 
 }  // namespace gearlash::cli

@@ -3,21 +3,14 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <memory>
-#include <optional>
 #include <vector>
 
-#include "command.hpp"
 #include "grid_options.hpp"
 #include "input/sweep_file.hpp"
 #include "input/units.hpp"
-#include "limit_options.hpp"
-#include "machine_faults.hpp"
-#include "output/output_file.hpp"
-#include "servo_options.hpp"
 #include "sweep_part.hpp"
 #include "sweep_run.hpp"
-#include "terminal.hpp"
+#include "verb.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -103,17 +96,16 @@ ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
 
 }  // namespace
 
-void add_sweep_command(Command& app, Action& action) {
-  const auto options = std::make_shared<SweepOptions>();
-  Command* command =
-      app.add_subcommand("sweep", "Analyse a drive over up to six parameters, into a NetCDF file");
-  command->add_option("SWEEP.toml", options->file, "Read the axes and the drive from this file")
-      ->required();
-  command->add_option("--output FILE", options->output, "Write this NetCDF-4 file (.nc)")
-      ->required();
-  command->add_flag("--resume", options->resume, "Continue a sweep that was stopped or killed");
-  add_limit_options(*command, options->limits);
-  set_action(*command, action, options, sweep_explanation + help_footer(sweep_examples), run);
+void add_sweep_command(const Command& app, Action& action) {
+  const auto [command, options] = add_verb<SweepOptions>(
+      app, action, "sweep", "Analyse a drive over up to six parameters, into a NetCDF file",
+      sweep_explanation + help_footer(sweep_examples), run);
+  command.add_option("SWEEP.toml", options.file, "Read the axes and the drive from this file",
+                     {.is_required = true});
+  command.add_option("--output FILE", options.output, "Write this NetCDF-4 file (.nc)",
+                     {.is_required = true});
+  command.add_flag("--resume", options.resume, "Continue a sweep that was stopped or killed");
+  add_limit_options(command, options.limits);
 }
 
 }  // namespace gearlash::cli

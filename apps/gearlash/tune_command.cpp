@@ -1,22 +1,16 @@
 // gearlash tune: the best values of several parameters for a whole series.
 #include <algorithm>
 #include <array>
-#include <memory>
 #include <numbers>
 
-#include "command.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
 #include "gearlash/tune.hpp"
 #include "input/axis_text.hpp"
-#include "limit_options.hpp"
-#include "machine_faults.hpp"
 #include "model/reduced_drive.hpp"
-#include "output/output_file.hpp"
 #include "output/tune_report.hpp"
 #include "question/axis.hpp"
-#include "servo_options.hpp"
-#include "terminal.hpp"
+#include "verb.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -154,35 +148,33 @@ ExitStatus run(const TuneOptions& options, const Provenance& provenance) {
 
 }  // namespace
 
-void add_tune_command(Command& app, Action& action) {
-  const auto options = std::make_shared<TuneOptions>();
-  Command* command = app.add_subcommand(
-      "tune", "Find the best values of several parameters for a whole series of drives");
-  add_servo_or_drive_options(*command, options->servo);
-  command
-      ->add_option("--parameters NAMES", options->parameters,
-                   "List the numbers to tune, by path, separated by commas, each from 0.1 to 10 "
-                   "times its present value, or over PATH=FROM:TO with units; default: the "
-                   "controller's gains that are above 0")
-      ->delimiter(',');
-  command->add_option("--target TARGET", options->target,
-                      "Set the target that each unit must meet, written as for design");
-  command->add_option(
-      "--for AIM", options->aim,
+void add_tune_command(const Command& app, Action& action) {
+  const auto [command, options] = add_verb<TuneOptions>(
+      app, action, "tune",
+      "Find the best values of several parameters for a whole series of drives",
+      tune_explanation + help_footer(tune_examples), run);
+  add_servo_or_drive_options(command, options.servo);
+  command.add_option("--parameters NAMES", options.parameters,
+                     "List the numbers to tune, by path, separated by commas, each from 0.1 to 10 "
+                     "times its present value, or over PATH=FROM:TO with units; default: the "
+                     "controller's gains that are above 0",
+                     {.delimiter = ','});
+  command.add_option("--target TARGET", options.target,
+                     "Set the target that each unit must meet, written as for design");
+  command.add_option(
+      "--for AIM", options.aim,
       "Choose what is best: the greatest bandwidth (default), the shortest settling or "
       "the least static-error, of the worst unit");
-  command->add_option("--share SHARE", options->share,
-                      "Set the share of the units that must meet the target; default 100 %");
-  command->add_option("--phase-margin ANGLE", options->phase_margin,
-                      "Set the least phase margin of the linear loop; default 30 deg");
-  command->add_option("--units N", options->units,
-                      "Set the number of units to which each proposal is put; default 64");
-  command->add_option("--seed N", options->seed, "Set the seed of the units; default 1960");
-  command->add_option("--write FILE", options->write, "Write the tuned drive to this file");
-  command->add_option("--format FORMAT", options->format,
-                      "Choose the format: text (default) or json");
-  add_limit_options(*command, options->limits);
-  set_action(*command, action, options, tune_explanation + help_footer(tune_examples), run);
+  command.add_option("--share SHARE", options.share,
+                     "Set the share of the units that must meet the target; default 100 %");
+  command.add_option("--phase-margin ANGLE", options.phase_margin,
+                     "Set the least phase margin of the linear loop; default 30 deg");
+  command.add_option("--units N", options.units,
+                     "Set the number of units to which each proposal is put; default 64");
+  command.add_option("--seed N", options.seed, "Set the seed of the units; default 1960");
+  command.add_option("--write FILE", options.write, "Write the tuned drive to this file");
+  add_format_option(command, options.format);
+  add_limit_options(command, options.limits);
 }
 
 }  // namespace gearlash::cli
