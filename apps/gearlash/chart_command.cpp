@@ -51,11 +51,8 @@ void require_branches(const GridTask& task) {
 /// Draws the bifurcation pictures.
 ExitStatus draw_branches(const GridTask& task, const std::vector<PlotFile>& plots,
                          LimitedWork& work) {
-  BifurcationDiagram diagram;
-  {
-    TerminalProgress progress(work, "Branches");
-    diagram = bifurcations_of(task.grid.drive, task.grid.axes.back(), progress);
-  }
+  const BifurcationDiagram diagram = bifurcations_of(
+      task.grid.drive, task.grid.axes.back(), TerminalProgress(work, "Branches").as_argument());
   Extras extras;
   if (work.is_stopped()) end_work(work, ExitStatus::undecided, "branches are missing");
   for (const PlotFile& plot : plots) {
@@ -73,7 +70,7 @@ ExitStatus run(const ChartOptions& options, const Provenance& provenance) {
   std::vector<AxisOption> axes;
   if (!options.curves.empty()) axes.push_back({"--curves", options.curves});
   axes.push_back({"--x", options.x});
-  GridTask task = read_grid_task(options.grid, axes, "chart", {"curves", "bifurcation"});
+  GridTask task = read_grid_task(options.grid, axes, "Chart", {"curves", "bifurcation"});
   std::vector<PlotFile> branches;
   std::vector<PlotFile> curves;
   for (const PlotFile& plot : task.plots) {
@@ -83,7 +80,7 @@ ExitStatus run(const ChartOptions& options, const Provenance& provenance) {
   LimitedWork work(task.limits);
   if (!branches.empty()) {
     const ExitStatus status = draw_branches(task, branches, work);
-    if ((curves.empty() && task.table.empty()) || status != ExitStatus::done) return status;
+    if ((curves.empty() && task.table_file.empty()) || status != ExitStatus::done) return status;
   }
   task.plots = std::move(curves);
   return make_grid_files(task, work, provenance, chart_plot);

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "base/fault.hpp"
 #include "input/section_reader.hpp"
 #include "input/units.hpp"
 #include "output/columns.hpp"

@@ -23,17 +23,13 @@ constexpr char compare_examples[] =
     "  gearlash compare --damping 0.19 --inertia-ratio 2 --friction-ratio 0.1 --backlash 0.3 \\\n"
     "      --x restitution=0:0.6:4 --format json\n";
 
-struct CompareOptions {
-  ServoOptions servo;
+struct CompareOptions : QuestionOptions {
   std::vector<std::string> files;
   std::string x;
   std::vector<std::string> quantities;
   std::optional<std::string> step;
   std::optional<std::string> until;
-  std::string format = "text";
   bool brief = false;
-  LimitOptions limits;
-  std::vector<std::string> plots;
 };
 
 struct CompareTask {
@@ -153,10 +149,9 @@ ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
   task.report.provenance = provenance;
   task.how.motion_bytes = bytes_of_motion(limits, task.drives.size());
   LimitedWork work(limits);
-  {
-    TerminalProgress progress(work, "Comparing", task.drives.size(), "drives");
-    task.report.drives = compare(task.drives, task.how, progress);
-  }
+  task.report.drives =
+      compare(task.drives, task.how,
+              TerminalProgress(work, "Comparing", task.drives.size(), "drives").as_argument());
   const bool decided =
       std::all_of(task.report.drives.begin(), task.report.drives.end(),
                   [](const ComparedDrive& one) { return one.answer && is_decided(*one.answer); });

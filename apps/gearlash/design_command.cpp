@@ -1,18 +1,14 @@
 // gearlash design: the changes of a drive that meet a target.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <utility>
 
-#include "base/progress_part.hpp"
 #include "grid_options.hpp"
 #include "input/axis_text.hpp"
 #include "output/design_report.hpp"
 #include "picture/grid_map.hpp"
 #include "question/axis.hpp"
 #include "question/change/design.hpp"
-#include "question/change/values.hpp"
 #include "verb.hpp"
 
 namespace gearlash::cli {
@@ -36,15 +32,11 @@ constexpr char design_examples[] =
     "  gearlash design --damping 0.19 --inertia-ratio 2 --friction-ratio 1/10 --backlash 0.3 \\\n"
     "      --target \"amplitude <= 0.1\"\n";
 
-struct DesignOptions {
-  ServoOptions servo;
+struct DesignOptions : QuestionOptions {
   std::string target;
   std::vector<std::string> parameters;
   std::vector<std::string> vary;
   std::string quantity = "bandwidth";
-  std::vector<std::string> plots;
-  std::string format = "text";
-  LimitOptions limits;
 };
 
 /// "2 of 5 parameters are not searched to the end".
@@ -55,11 +47,12 @@ std::string unknown_text(std::size_t known, std::size_t all) {
 
 /// An axis of the picture as typed; of a name alone its ends: those of usual_axis() but for a
 /// leading 0, by ratio three times as far.
-Axis read_axis_to_draw(const std::string& text, const Drive& drive, std::string* left_out) {
+Axis read_axis_to_draw(std::string_view field, std::string_view text, const Drive& drive,
+                       std::string* left_out) {
   constexpr double farther = 3.0;
-  Axis axis = read_axis_or_name("--vary", text, drive, left_out);
+  Axis axis = read_axis_or_name(field, text, drive, left_out);
   const bool is_word = unit_of(axis, drive).empty();
-  if (is_word || text.find('=') != std::string::npos) return axis;
+  if (is_word || text.find('=') != std::string_view::npos) return axis;
   if (axis.logarithmic) {
     const double low = axis.values[axis.values.front() == 0.0 ? 1 : 0];
     axis.values = {low / farther, axis.values.back() * farther};
@@ -84,20 +77,18 @@ bool are_two(const std::vector<std::string>& names) {
 /// The map of --vary, with the first parameter along x.
 GridTask read_region(const DesignOptions& options, const WrittenDrive& written,
                      const Target& target, Faults& faults) {
-  GridTask task{.verb = "map",
-                .grid = {.drive = written.drive},
-                .quantity = read_quantity(options.quantity, faults),
-                .angle = written.angle,
-                .has_boundary = true,
-                .target = target,
-                .target_text = options.target};
-  std::vector<Axis>& axes = task.grid.axes;
+  GridTask task;
+  task.title = "Map";
+  task.grid.drive = written.drive;
+  task.quantity = read_quantity(options.quantity, faults);
+  task.angle = written.angle;
+  task.has_boundary = true;
+  task.target = target;
+  task.target_text = options.target;
   if (!are_two(options.vary)) return task;
-  for (const std::string& text : options.vary) {
-    Axis axis = collect_axis([&](auto* out) { return read_axis_to_draw(text, written.drive, out); },
-                             faults);
-    if (!axis.values.empty()) axes.insert(axes.begin(), std::move(axis));
-  }
+  std::vector<Axis>& axes = task.grid.axes;
+  axes = collect_axes("--vary", options.vary, written.drive, read_axis_to_draw, faults);
+  std::reverse(axes.begin(), axes.end());
   const std::vector<std::string> fields = {"--vary", "--vary"};
   if (axes.size() != 2) return task;
   faults.add(gearlash::faults(task.grid, fields));
@@ -132,12 +123,7 @@ void check_options(const DesignOptions& options, Faults& faults) {
 std::vector<Axis> read_axes(const DesignOptions& options, const Drive& drive, Faults& faults) {
   std::vector<std::string> texts = options.parameters.empty() ? options.vary : options.parameters;
   if (texts.empty()) texts = usual_parameters(drive);
-  return collect_axes(
-      texts,
-      [&](const auto& text, auto* out) {
-        return read_axis_to_search("--parameters", text, drive, out);
-      },
-      faults);
+  return collect_axes("--parameters", texts, drive, read_axis_to_search, faults);
 }
 
 ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
@@ -158,10 +144,7 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
                       .target = target,
                       .angle = written->angle,
                       .provenance = provenance};
-  {
-    TerminalProgress progress(work, "Design");
-    report.design = design(drive, axes, target, progress);
-  }
+  report.design = design(drive, axes, target, TerminalProgress(work, "Design").as_argument());
   const auto known = static_cast<std::size_t>(
       std::count_if(report.design.parameters.begin(), report.design.parameters.end(),
                     [](const DesignedParameter& one) { return !one.values.stopped; }));

@@ -5,7 +5,6 @@
 #include "input/axis_text.hpp"
 #include "input/units.hpp"
 #include "output/answer_report.hpp"
-#include "output/change_report.hpp"
 #include "picture/answer_bars.hpp"
 #include "picture/answer_picture.hpp"
 #include "question/analyse.hpp"
@@ -30,11 +29,7 @@ constexpr char limit_cycle_examples[] =
     "  gearlash limit-cycle examples/robot-joint.toml --margins --parameters "
     "gearbox.backlash,load.inertia,motor.coulomb\n";
 
-struct LimitCycleOptions {
-  ServoOptions servo;
-  std::string format = "text";
-  std::vector<std::string> plots;
-  LimitOptions limits;
+struct LimitCycleOptions : QuestionOptions {
   std::string specification;
   std::string measured;
   bool brief = false;
@@ -72,20 +67,17 @@ Plot plot_of(const Result& result, const std::string& kind, LimitedWork& work) {
   if (kind == "tornado") return tornado_of(result);
   if (kind == "ceiling") return ceiling_of(result);
   if (kind == "time") return time_plot(response_picture(result.report, result.analysis));
-  TerminalProgress progress(work, "Basins");
-  return phase_plot(phase_picture(result.report, result.analysis, progress));
+  return phase_plot(phase_picture(result.report, result.analysis,
+                                  TerminalProgress(work, "Basins").as_argument()));
 }
 
 /// The parameters of the margins; none: the usual ones.
 std::vector<Axis> read_parameters(const LimitCycleOptions& options, const Drive& drive,
                                   Faults& faults) {
-  constexpr char field[] = "--parameters";
-  std::vector<Axis> axes = collect_axes(
-      options.parameters,
-      [&](const auto& text, auto* out) { return read_axis_to_search(field, text, drive, out); },
-      faults);
-  if (!axes.empty() && !options.margins) {
-    faults.add({field, options.parameters.front(), "must come with --margins", ""});
+  std::vector<Axis> axes =
+      collect_axes("--parameters", options.parameters, drive, read_axis_to_search, faults);
+  if (!options.parameters.empty() && !options.margins) {
+    faults.add({"--parameters", options.parameters.front(), "must come with --margins", ""});
   }
   return axes;
 }
@@ -105,22 +97,19 @@ void add_changes(Result& result, const Drive& drive, const Changes& wanted, Limi
         wanted.axes.empty() ? margins(drive, progress) : margins(drive, wanted.axes, progress);
   }
   if (!wanted.sensitivities) return;
-  TerminalProgress progress(work, "Sensitivities");
-  result.report.sensitivity = sensitivities(drive, result.analysis, progress);
+  result.report.sensitivity =
+      sensitivities(drive, result.analysis, TerminalProgress(work, "Sensitivities").as_argument());
 }
 
 /// `specification`: rad, or 0.
 Result analysed(const WrittenDrive& written, double specification, const Provenance& provenance,
                 LimitedWork& work) {
-  Result result;
-  {
-    TerminalProgress progress(work, "Searching");
-    const Wanted wanted{.ceiling = true,
-                        .quantization = true,
-                        .rest_band = specification,
-                        .motion_bytes = bytes_of_motion(work.limits())};
-    result.analysis = analyse_in_full(written.drive, wanted, progress);
-  }
+  const Wanted wanted{.ceiling = true,
+                      .quantization = true,
+                      .rest_band = specification,
+                      .motion_bytes = bytes_of_motion(work.limits())};
+  Result result{.analysis = analyse_in_full(written.drive, wanted,
+                                            TerminalProgress(work, "Searching").as_argument())};
   result.report = report_of(written.drive, result.analysis.answer, written.angle, provenance);
   return result;
 }

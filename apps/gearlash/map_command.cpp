@@ -1,5 +1,4 @@
 // gearlash map: contours over two parameters of the drive, and where hunting ends.
-
 #include "grid_options.hpp"
 #include "picture/grid_map.hpp"
 
@@ -26,7 +25,7 @@ struct MapOptions {
 
 ExitStatus run(const MapOptions& options, const Provenance& provenance) {
   GridTask task =
-      read_grid_task(options.grid, {{"--y", options.y}, {"--x", options.x}}, "map", {"map"});
+      read_grid_task(options.grid, {{"--y", options.y}, {"--x", options.x}}, "Map", {"map"});
   task.has_boundary = true;
   Faults faults;
   require_an_area(task.grid, {"--y", "--x"}, faults);

@@ -1,5 +1,4 @@
 // gearlash show: the drive with all defaults filled in.
-
 #include "output/drive_text.hpp"
 #include "verb.hpp"
 

@@ -30,8 +30,9 @@ constexpr double default_samples = 1000.0;
 /// A table this long takes about a gigabyte.
 constexpr double most_samples = 1e7;
 
-struct SimulateOptions {
-  ServoOptions servo;
+struct SimulateOptions : QuestionOptions {
+  SimulateOptions() { format = "csv"; }
+
   std::optional<std::string> initial_position;
   std::optional<std::string> initial_speed;
   std::optional<std::string> initial_gap;
@@ -40,10 +41,7 @@ struct SimulateOptions {
   std::optional<std::string> until;
   std::optional<std::string> every;
   bool events = false;
-  std::string format = "csv";
-  std::vector<std::string> plots;
   std::string output = "-";
-  LimitOptions limits;
 };
 
 /// An option of the motion.
@@ -107,13 +105,11 @@ double default_reference(const drive::ReducedDrive& reduced) {
 }
 
 /// From --reference, else from the file, else a step. Its unit is used if the file has radians.
-void set_reference(const SimulateOptions& options, WrittenDrive& written, Faults& faults) {
-  if (options.reference) {
-    const Measured angle =
-        faults.collect([&] { return read_angle("--reference", *options.reference); }, Measured{});
-    written.drive.reference = angle.si;
+void set_reference(const std::optional<Measured>& typed, WrittenDrive& written) {
+  if (typed) {
+    written.drive.reference = typed->si;
     if (written.angle == AngleUnit{}) {
-      written.angle = {.name = angle.unit, .radians = angle.unit_in_si};
+      written.angle = {.name = typed->unit, .radians = typed->unit_in_si};
     }
   } else if (!written.drive.reference) {
     written.drive.reference = default_reference(reduce(written.drive));
@@ -150,17 +146,18 @@ void read_times(const SimulateOptions& options, const Drive* drive, SimulateRequ
 SimulateRequest read_task(const SimulateOptions& options, const std::vector<FileUse>& outputs,
                           Faults& faults) {
   SimulateRequest task;
-  std::optional<WrittenDrive> written = resolve_drive(options.servo, outputs, faults);
+  const std::optional<WrittenDrive> written = resolve_drive(options.servo, outputs, faults);
   task.start = read_start(options, faults);
-  if (written) {
-    set_reference(options, *written, faults);
-    task.written = *std::move(written);
-    read_times(options, &task.written.drive, task, faults);
-  } else {
-    if (options.reference)
-      faults.collect([&] { return read_angle("--reference", *options.reference); }, Measured{});
-    read_times(options, nullptr, task, faults);
+  std::optional<Measured> reference;
+  if (options.reference) {
+    reference =
+        faults.collect([&] { return read_angle("--reference", *options.reference); }, Measured{});
   }
+  if (written) {
+    task.written = *written;
+    set_reference(reference, task.written);
+  }
+  read_times(options, written ? &task.written.drive : nullptr, task, faults);
   faults.require_none();
   return task;
 }
@@ -168,8 +165,8 @@ SimulateRequest read_task(const SimulateOptions& options, const std::vector<File
 /// Reports faults of the span under the options that were typed.
 Motion simulated(const SimulateRequest& task, const SimulateOptions& options, LimitedWork& work) {
   try {
-    TerminalProgress progress(work, "Simulating");
-    return simulate(task.written.drive, {.until = task.until, .start = task.start}, progress);
+    return simulate(task.written.drive, {.until = task.until, .start = task.start},
+                    TerminalProgress(work, "Simulating").as_argument());
   } catch (const InvalidInput& error) {
     std::vector<Fault> faults = error.faults();
     for (Fault& fault : faults) {
@@ -204,8 +201,8 @@ struct KnownHunting {
 };
 
 KnownHunting hunting_of(const WrittenDrive& written, LimitedWork& work) {
-  TerminalProgress progress(work, "Searching");
-  const Answer answer = analyse(written.drive, {.proofs = false}, progress);
+  const Answer answer =
+      analyse(written.drive, {.proofs = false}, TerminalProgress(work, "Searching").as_argument());
   KnownHunting known;
   known.headline = headline(report_of(written.drive, answer, written.angle, {}));
   if (const Cycle* cycle = answer.largest_stable()) {
@@ -226,8 +223,8 @@ Motion motion_to_draw(const SimulateRequest& task, const Motion& motion,
   if (options.until || motion.stop() != MotionStop::reached_end || shows || until > longest) {
     return motion;
   }
-  TerminalProgress progress(work, "Simulating");
-  Motion longer = simulate(task.written.drive, {.until = until, .start = task.start}, progress);
+  Motion longer = simulate(task.written.drive, {.until = until, .start = task.start},
+                           TerminalProgress(work, "Simulating").as_argument());
   const bool is_drawn =
       longer.stop() != MotionStop::stopped && longer.events().size() <= most_events_drawn;
   return is_drawn ? longer : motion;

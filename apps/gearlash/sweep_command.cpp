@@ -1,14 +1,11 @@
 // gearlash sweep: a drive over up to six parameters into a NetCDF file, in little memory.
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <filesystem>
-#include <vector>
 
 #include "grid_options.hpp"
 #include "input/sweep_file.hpp"
 #include "input/units.hpp"
-#include "sweep_part.hpp"
 #include "sweep_run.hpp"
 #include "verb.hpp"
 
@@ -46,11 +43,7 @@ void require_netcdf(const std::string& output, Faults& faults) {
 
 /// The command without --resume, so that a resumed sweep writes the same file.
 Provenance provenance_of(const SweepOptions& options, const Provenance& typed) {
-  const std::vector<std::string> words = {"gearlash", "sweep", options.file, "--output",
-                                          options.output};
-  std::vector<const char*> arguments;
-  for (const std::string& word : words) arguments.push_back(word.c_str());
-  return {typed_command(static_cast<int>(arguments.size()), arguments.data()), typed.version};
+  return {typed_command({"sweep", options.file, "--output", options.output}), typed.version};
 }
 
 void report_stop(std::size_t done, std::size_t points, const std::string& output) {
@@ -79,12 +72,10 @@ ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
 
   for (const std::string& line : sweep.left_out) report_lines(line);
   LimitedWork work(limits);
-  std::optional<TerminalProgress> progress;
-  progress.emplace(work, "Sweep", sweep.grid.size(), "points");
   const RowCount done =
       run_sweep(sweep, provenance_of(options, provenance), options.output,
-                options.resume ? SweepStart::resume : SweepStart::anew, *progress);
-  progress.reset();  // wiped before anything is printed
+                options.resume ? SweepStart::resume : SweepStart::anew,
+                TerminalProgress(work, "Sweep", sweep.grid.size(), "points").as_argument());
   if (done.points() < sweep.grid.size()) {
     report_stop(done.points(), sweep.grid.size(), options.output);
     work.end();

@@ -187,11 +187,8 @@ ExitStatus draw_extension(const ExtensionOptions& typed, const Provenance&) {
   const Limits limits = read_limits(typed.limits, faults);
   faults.require_none();
   LimitedWork work(limits);
-  const auto extend = [&] {
-    TerminalProgress progress(work, "Extension " + typed.number);
-    return thesis::extension(std::stoi(typed.number), progress);
-  };
-  const thesis::Extension extension = extend();
+  const thesis::Extension extension = thesis::extension(
+      std::stoi(typed.number), TerminalProgress(work, "Extension " + typed.number).as_argument());
   std::vector<PlotFile> pictures;
   if (!work.is_stopped()) pictures.push_back(file);
   return give({.text = wrapped(fmt::format("{}. {}", extension.number, extension.wish)) + "\n" +

@@ -21,13 +21,10 @@ void add_thesis_command(const Command& app, Action& action) {
       "thesis", "Run the program of 1960 and draw its charts, beside the exact answer");
   thesis.require_subcommand();
   thesis.footer(help_footer(thesis_examples));
-  add_thesis_table_2(thesis, action);
-  add_thesis_machine(thesis, action);
-  add_thesis_run(thesis, action);
-  add_thesis_figure(thesis, action);
-  add_thesis_chart_reading(thesis, action);
-  add_thesis_extension(thesis, action);
-  add_thesis_all(thesis, action);
+  for (AddVerb* add : {add_thesis_table_2, add_thesis_machine, add_thesis_run, add_thesis_figure,
+                       add_thesis_chart_reading, add_thesis_extension, add_thesis_all}) {
+    add(thesis, action);
+  }
 }
 
 }  // namespace gearlash::cli

@@ -5,13 +5,8 @@
 
 namespace gearlash::cli {
 
-void add_thesis_table_2(const Command& thesis, Action& action);
-void add_thesis_machine(const Command& thesis, Action& action);
-void add_thesis_run(const Command& thesis, Action& action);
-void add_thesis_figure(const Command& thesis, Action& action);
-void add_thesis_chart_reading(const Command& thesis, Action& action);
-void add_thesis_extension(const Command& thesis, Action& action);
-void add_thesis_all(const Command& thesis, Action& action);
+AddVerb add_thesis_table_2, add_thesis_machine, add_thesis_run, add_thesis_figure,
+    add_thesis_chart_reading, add_thesis_extension, add_thesis_all;
 
 /// resolve_drive(), with the backlash of the charts if none is given.
 std::optional<WrittenDrive> resolve_charted_drive(ServoOptions typed, Faults& faults);

@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
 #include "model/proportional_servo.hpp"
 #include "output/tolerance_report.hpp"
@@ -30,17 +28,13 @@ constexpr char tolerance_explanation[] =
     "  friction = { value = \"2 mN m s/rad\", normal = \"5 %\", min = \"1 mN m s/rad\" }\n"
     "  ratio = { lots = [40, { value = 50, weight = 3 }] }\n\n";
 
-struct ToleranceOptions {
-  ServoOptions servo;
+struct ToleranceOptions : QuestionOptions {
   std::string samples;
   std::string error;
   std::string amplitude;
   std::string seed = "1960";
   std::string target;
   std::string yield;
-  std::string format = "text";
-  std::vector<std::string> plots;
-  LimitOptions limits;
 };
 
 constexpr std::pair<const char*, TolerancePicture> pictures[] = {

@@ -1,7 +1,5 @@
 // gearlash tune: the best values of several parameters for a whole series.
 #include <algorithm>
-#include <array>
-#include <numbers>
 
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
@@ -29,8 +27,7 @@ constexpr char tune_explanation[] =
     "to\n"
     "rest, or to hunt by no more than one step of the encoder.\n\n";
 
-struct TuneOptions {
-  ServoOptions servo;
+struct TuneOptions : QuestionOptions {
   std::vector<std::string> parameters;
   std::string target;
   std::string aim = "bandwidth";
@@ -39,8 +36,6 @@ struct TuneOptions {
   std::string units = "64";
   std::string seed = "1960";
   std::string write;
-  std::string format = "text";
-  LimitOptions limits;
 };
 
 /// The usual target in words.
@@ -53,10 +48,8 @@ std::string text_of_usual(const Target& target, const AngleUnit& angle) {
 }
 
 struct TuneRequest {
-  TuneTask task;
+  TuneReport report;  ///< without the answer
   TuneEffort effort;
-  std::string target_text;
-  AngleUnit angle;
   Limits limits;
 };
 
@@ -66,84 +59,75 @@ Aim read_aim(const std::string& text, Faults& faults) {
   return text == "static-error" ? Aim::static_error : Aim::bandwidth;
 }
 
-void read_numbers(const TuneOptions& options, TuneRequest& task, Faults& faults) {
-  task.task.aim = read_aim(options.aim, faults);
-  task.task.share = read_share("--share", options.share, faults);
-  task.task.least_phase_margin = faults.collect(
+void read_numbers(const TuneOptions& options, TuneTask& task, TuneEffort& effort, Faults& faults) {
+  task.aim = read_aim(options.aim, faults);
+  task.share = read_share("--share", options.share, faults);
+  task.least_phase_margin = faults.collect(
       [&] { return read_si("--phase-margin", options.phase_margin, dimensions::angle); },
-      task.task.least_phase_margin);
+      task.least_phase_margin);
   constexpr std::size_t most_units = 100'000;
-  task.effort.units = collect_whole("--units", options.units, 1, most_units, faults);
-  task.effort.seed = collect_whole("--seed", options.seed, 0, std::uint64_t{1} << 53U, faults);
+  effort.units = collect_whole("--units", options.units, 1, most_units, faults);
+  effort.seed = collect_whole("--seed", options.seed, 0, std::uint64_t{1} << 53U, faults);
 }
 
-TuneRequest read_task(const TuneOptions& options) {
-  TuneRequest task;
+TuneRequest read_request(const TuneOptions& options) {
+  TuneRequest request;
+  TuneReport& report = request.report;
+  TuneTask& task = report.task;
   Faults faults;
   faults.require_choice("--format", options.format, {"text", "json"});
-  read_numbers(options, task, faults);
-  task.limits = read_limits(options.limits, faults);
+  read_numbers(options, task, request.effort, faults);
+  request.limits = read_limits(options.limits, faults);
   const std::optional<WrittenDrive> written =
       resolve_drive(options.servo, {{"--write", options.write}}, faults);
   if (!written) faults.require_none();
   const Drive& drive = written->drive;
-  task.angle = written->angle;
-  task.task.series = {drive, written->tolerances};
-  task.task.tuned = collect_axes(
-      options.parameters.empty() ? usual_gains(drive) : options.parameters,
-      [&](const auto& text, auto* out) {
-        return read_axis_to_tune("--parameters", text, drive, out);
-      },
-      faults);
-  if (task.task.tuned.empty()) {
+  report.angle = written->angle;
+  task.series = {drive, written->tolerances};
+  const auto names = options.parameters.empty() ? usual_gains(drive) : options.parameters;
+  task.tuned = collect_axes("--parameters", names, drive, read_axis_to_tune, faults);
+  if (names.empty()) {
     faults.add({"--parameters", "", "must name what to tune: the drive has no gain above 0", ""});
   }
-  task.target_text = options.target;
+  report.target_text = options.target;
   if (options.target.empty()) {
-    task.task.target = usual_target(drive);
-    task.target_text = text_of_usual(task.task.target, task.angle);
+    task.target = usual_target(drive);
+    report.target_text = text_of_usual(task.target, report.angle);
   } else {
-    task.task.target = collect_target(options.target, &drive, faults);
+    task.target = collect_target(options.target, &drive, faults);
   }
   faults.require_none();
-  std::erase_if(task.task.series.varied, [&](const ParameterTolerance& varied) {
-    return std::any_of(task.task.tuned.begin(), task.task.tuned.end(), [&](const Axis& axis) {
+  std::erase_if(task.series.varied, [&](const ParameterTolerance& varied) {
+    return std::any_of(task.tuned.begin(), task.tuned.end(), [&](const Axis& axis) {
       return parameter_of(axis, drive)->path == varied.path;
     });
   });
-  return task;
+  return request;
 }
 
 ExitStatus run(const TuneOptions& options, const Provenance& provenance) {
-  const TuneRequest task = read_task(options);
-  TuneReport report{.task = task.task,
-                    .target_text = task.target_text,
-                    .angle = task.angle,
-                    .provenance = provenance};
-  LimitedWork work(task.limits);
-  {
-    TerminalProgress progress(work, "Tune");
-    report.tuned = tune(task.task, task.effort, progress);
-  }
-  const auto lesser = without_integral_action(task.task);
+  const auto [asked, effort, limits] = read_request(options);
+  TuneReport report = asked;
+  report.provenance = provenance;
+  LimitedWork work(limits);
+  report.tuned = tune(report.task, effort, TerminalProgress(work, "Tune").as_argument());
+  const auto lesser = without_integral_action(report.task);
   if (!report.tuned.meets && !work.is_stopped() && lesser) {
-    TerminalProgress progress(work, "Tune without integral action");
-    report.without_integral = tune(*lesser, task.effort, progress);
+    report.without_integral =
+        tune(*lesser, effort, TerminalProgress(work, "Tune without integral action").as_argument());
   }
   {
     TerminalProgress progress(work, "Searching");
-    report.present = analyse(task.task.series.nominal, {.proofs = false}, progress);
+    report.present = analyse(report.task.series.nominal, {.proofs = false}, progress);
     report.nominal = analyse(report.tuned.drive, {.proofs = false}, progress);
   }
-  Extras extras;
-  extras.print(options.format == "json" ? tune_json(report) : tune_text(report));
-  const ExitStatus status = end_work(
-      work, ExitStatus::done,
-      report.tuned.stopped ? "the values are the best by then" : "what these values do is not");
-  if (!options.write.empty()) {
-    extras.make([&] { write_file(options.write, tuned_toml(report)); });
-  }
-  return extras.status(status);
+  return give({.text = options.format == "json" ? tune_json(report) : tune_text(report),
+               .unknown = report.tuned.stopped ? "the values are the best by then"
+                                               : "what these values do is not"},
+              work, [&](Extras& extras) {
+                if (options.write.empty()) return;
+                extras.make([&] { write_file(options.write, tuned_toml(report)); });
+              });
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 #include "verb.hpp"
 
 #include <algorithm>
+#include <cstdio>
+#include <new>
 #include <string_view>
+#include <system_error>
 
 #include "input/section_reader.hpp"
 #include "input/units.hpp"
@@ -50,9 +53,9 @@ std::string help_footer(const std::string& examples) {
          examples.substr(0, examples.find_last_not_of('\n') + 1);
 }
 
-std::string typed_command(int argument_count, const char* const* arguments) {
+std::string typed_command(const std::vector<std::string>& words) {
   std::string command = "gearlash";
-  for (int i = 1; i < argument_count; ++i) command += " " + shell_quoted(arguments[i]);
+  for (const std::string& word : words) command += " " + shell_quoted(word);
   return command;
 }
 
@@ -135,6 +138,30 @@ void refuse_to_draw(const PlotFile& file) {
   throw OutputError(file.file + ": not drawn: the work was stopped before");
 }
 
+void report_lines(const std::string& lines) {
+  std::size_t start = 0;
+  while (start < lines.size()) {
+    const std::size_t end = std::min(lines.find('\n', start), lines.size());
+    std::fputs(("gearlash: " + lines.substr(start, end - start) + "\n").c_str(), stderr);
+    start = end + 1;
+  }
+}
+
+bool is_within_means(const std::function<void()>& work) {
+  try {
+    work();
+    return true;
+  } catch (const OutputError& error) {
+    report_lines(error.what());
+  } catch (const std::bad_alloc&) {
+    report_lines("not enough memory");
+  } catch (const std::system_error& error) {
+    if (error.code() != std::errc::resource_unavailable_try_again) throw;
+    report_lines("no thread or process could be started: " + error.code().message());
+  }
+  return false;
+}
+
 void Extras::print(const std::string& answer) {
   make([&] { write_file("-", answer); });
 }
@@ -149,17 +176,24 @@ void Extras::make(const std::function<void()>& work) {
   }
 }
 
-ExitStatus give(const Answered& answered, LimitedWork& work, const std::vector<PlotFile>& plots,
-                const std::function<Plot(const PlotFile& file)>& plot_of) {
+ExitStatus give(const Answered& answered, LimitedWork& work,
+                const std::function<void(Extras& extras)>& make_others) {
   Extras extras;
   extras.print(answered.text);
   report_lines(answered.remark);
   const ExitStatus status = end_work(
       work, answered.is_decided ? ExitStatus::done : ExitStatus::undecided, answered.unknown);
-  for (const PlotFile& file : plots) {
-    extras.make([&] { write_plot(file, plot_of(file)); });
-  }
+  make_others(extras);
   return extras.status(status);
+}
+
+ExitStatus give(const Answered& answered, LimitedWork& work, const std::vector<PlotFile>& plots,
+                const std::function<Plot(const PlotFile& file)>& plot_of) {
+  return give(answered, work, [&](Extras& extras) {
+    for (const PlotFile& file : plots) {
+      extras.make([&] { write_plot(file, plot_of(file)); });
+    }
+  });
 }
 
 }  // namespace gearlash::cli

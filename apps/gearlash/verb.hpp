@@ -9,13 +9,11 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "limited_work.hpp"
-#include "machine_faults.hpp"
 #include "output/output_file.hpp"
 #include "output/report_units.hpp"
 #include "picture/gnuplot_renderer.hpp"
 #include "servo_options.hpp"
-#include "terminal.hpp"
+#include "work.hpp"
 
 namespace gearlash::cli {
 
@@ -32,20 +30,12 @@ using Action = std::function<ExitStatus(const Provenance&)>;
 
 // ---- registration -------------------------------------------------------------------------------
 
-void add_limit_cycle_command(const Command& app, Action& action);
-void add_simulate_command(const Command& app, Action& action);
-void add_chart_command(const Command& app, Action& action);
-void add_map_command(const Command& app, Action& action);
-void add_sweep_command(const Command& app, Action& action);
-void add_design_command(const Command& app, Action& action);
-void add_describe_command(const Command& app, Action& action);
-void add_motor_command(const Command& app, Action& action);
-void add_tune_command(const Command& app, Action& action);
-void add_tolerance_command(const Command& app, Action& action);
-void add_compare_command(const Command& app, Action& action);
-void add_show_command(const Command& app, Action& action);
-void add_explore_command(const Command& app, Action& action);
-void add_thesis_command(const Command& app, Action& action);
+/// Adds a verb to the tool or to another verb. Its action is put into `action`.
+using AddVerb = void(const Command& app, Action& action);
+AddVerb add_limit_cycle_command, add_simulate_command, add_design_command, add_tune_command,
+    add_tolerance_command, add_compare_command, add_describe_command, add_motor_command,
+    add_chart_command, add_map_command, add_sweep_command, add_show_command, add_explore_command,
+    add_thesis_command;
 
 /// A verb and what is typed after it.
 template <class Options>
@@ -74,8 +64,9 @@ Verb<Options> add_verb(const Command& app, Action& action, const std::string& na
 /// The end of every --help.
 std::string help_footer(const std::string& examples);
 
-/// The command as it could be typed into a shell, always on one line.
-std::string typed_command(int argument_count, const char* const* arguments);
+/// The command of these words, the tool's name left out, as it could be typed into a shell, always
+/// on one line.
+std::string typed_command(const std::vector<std::string>& words);
 
 /// --format text|json.
 void add_format_option(const Command& command, std::string& format);
@@ -95,6 +86,14 @@ Limits read_limits(const LimitOptions& options, Faults& faults);
 /// Ends the work once its answer is printed. If it was stopped, reports by what, and what is
 /// therefore `unknown`; the status is then 1. After a signal the program ends here.
 ExitStatus end_work(LimitedWork& work, ExitStatus status, const std::string& unknown);
+
+/// As typed, of a verb that answers a question about a drive.
+struct QuestionOptions {
+  ServoOptions servo{};
+  std::string format = "text";
+  std::vector<std::string> plots{};
+  LimitOptions limits{};
+};
 
 // ---- pictures -----------------------------------------------------------------------------------
 
@@ -128,6 +127,13 @@ void write_plot(const PlotFile& file, const Plot& plot);
 
 // ---- the answer ---------------------------------------------------------------------------------
 
+/// Each line of `lines` on standard error, after the name of the program.
+void report_lines(const std::string& lines);
+
+/// Runs `work`. Returns false where the machine refused it output, a plotter,
+/// memory or a thread, and reports it by report_lines(). Other exceptions pass.
+bool is_within_means(const std::function<void()>& work);
+
 /// The answer, then pictures and files beside it. A failure is reported at once, and does not
 /// withhold the others.
 class Extras {
@@ -150,7 +156,10 @@ struct Answered {
   std::string unknown{};   ///< if the work was stopped: what a stop leaves open
 };
 
-/// Prints the answer, ends the work, and draws what `plot_of` makes of each picture's file.
+/// Prints the answer, ends the work, and makes what is beside the answer.
+ExitStatus give(const Answered& answered, LimitedWork& work,
+                const std::function<void(Extras& extras)>& make_others);
+/// The same with what `plot_of` draws into each picture's file.
 ExitStatus give(const Answered& answered, LimitedWork& work, const std::vector<PlotFile>& plots,
                 const std::function<Plot(const PlotFile& file)>& plot_of);
 
