@@ -160,7 +160,9 @@ DescribeReport describe_report_of(const Drive& drive, const Answer& answer, cons
 }
 
 std::string describe_text(const DescribeReport& report) {
-  std::string text = headline(report_of(report.drive, report.answer, report.angle, {})) + "\n";
+  AnswerReport exact = report_of(report.drive, report.answer, report.angle, {});
+  exact.is_normalized = report.is_normalized;
+  std::string text = headline(exact) + "\n";
   for (const DescribingAnalysis& analysis : report.analyses) {
     text += "\n" + analysis_text(analysis, report);
   }
