@@ -1,15 +1,9 @@
 // gearlash chart: a family of curves over any parameters of the drive.
 #include <fmt/format.h>
 
-#include <memory>
-
-#include "command.hpp"
 #include "grid_options.hpp"
-#include "machine_faults.hpp"
-#include "output/output_file.hpp"
 #include "picture/bifurcation_picture.hpp"
 #include "picture/grid_chart.hpp"
-#include "terminal.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -57,11 +51,8 @@ void require_branches(const GridTask& task) {
 /// Draws the bifurcation pictures.
 ExitStatus draw_branches(const GridTask& task, const std::vector<PlotFile>& plots,
                          LimitedWork& work) {
-  BifurcationDiagram diagram;
-  {
-    TerminalProgress progress(work, "Branches");
-    diagram = bifurcations_of(task.grid.drive, task.grid.axes.back(), progress);
-  }
+  const BifurcationDiagram diagram = bifurcations_of(
+      task.grid.drive, task.grid.axes.back(), TerminalProgress(work, "Branches").as_argument());
   Extras extras;
   if (work.is_stopped()) end_work(work, ExitStatus::undecided, "branches are missing");
   for (const PlotFile& plot : plots) {
@@ -79,7 +70,7 @@ ExitStatus run(const ChartOptions& options, const Provenance& provenance) {
   std::vector<AxisOption> axes;
   if (!options.curves.empty()) axes.push_back({"--curves", options.curves});
   axes.push_back({"--x", options.x});
-  GridTask task = read_grid_task(options.grid, axes, "chart", {"curves", "bifurcation"});
+  GridTask task = read_grid_task(options.grid, axes, "Chart", {"curves", "bifurcation"});
   std::vector<PlotFile> branches;
   std::vector<PlotFile> curves;
   for (const PlotFile& plot : task.plots) {
@@ -89,7 +80,7 @@ ExitStatus run(const ChartOptions& options, const Provenance& provenance) {
   LimitedWork work(task.limits);
   if (!branches.empty()) {
     const ExitStatus status = draw_branches(task, branches, work);
-    if ((curves.empty() && task.table.empty()) || status != ExitStatus::done) return status;
+    if ((curves.empty() && task.table_file.empty()) || status != ExitStatus::done) return status;
   }
   task.plots = std::move(curves);
   return make_grid_files(task, work, provenance, chart_plot);
@@ -97,21 +88,15 @@ ExitStatus run(const ChartOptions& options, const Provenance& provenance) {
 
 }  // namespace
 
-void add_chart_command(Command& app, Action& action) {
-  const auto options = std::make_shared<ChartOptions>();
-  Command* command =
-      app.add_subcommand("chart", "Draw a family of curves over any parameters of a drive");
-  command->add_option("--x AXIS", options->x, axis_help)->required();
-  command->add_option("--curves AXIS", options->curves,
-                      "Draw one curve for each value of this axis");
-  add_grid_options(*command, options->grid,
+void add_chart_command(const Command& app, Action& action) {
+  const auto [command, options] = add_verb<ChartOptions>(
+      app, action, "chart", "Draw a family of curves over any parameters of a drive",
+      backlashes_explanation + help_footer(chart_examples), run);
+  command.add_option("--x AXIS", options.x, axis_help, {.is_required = true});
+  command.add_option("--curves AXIS", options.curves, "Draw one curve for each value of this axis");
+  add_grid_options(command, options.grid,
                    "Draw curves=FILE, the quantity over --x, or bifurcation=FILE, all cycles over "
                    "--x as stable and unstable branches with their borders;");
-  set_action(
-      *command, action, options,
-      "Without --backlash, amplitudes are in backlashes, because they are proportional to it.\n\n" +
-          help_footer(chart_examples),
-      run);
 }
 
 }  // namespace gearlash::cli

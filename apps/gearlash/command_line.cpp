@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "base/fault.hpp"
 #include "input/section_reader.hpp"
 #include "input/units.hpp"
 #include "output/columns.hpp"
@@ -62,35 +61,9 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& error) {
 
 }  // namespace
 
-Option* Option::group(const std::string& heading) {
-  option_->group(heading);
-  return this;
-}
+void Option::excludes(Option other) const { option_->excludes(other.option_); }
 
-Option* Option::required() {
-  option_->required();
-  return this;
-}
-
-Option* Option::delimiter(char character) {
-  option_->delimiter(character);
-  return this;
-}
-
-Option* Option::allow_extra_args(bool allowed) {
-  option_->allow_extra_args(allowed);
-  return this;
-}
-
-Option* Option::excludes(Option* other) {
-  option_->excludes(other->option_);
-  return this;
-}
-
-Option* Option::needs(Option* other) {
-  option_->needs(other->option_);
-  return this;
-}
+void Option::needs(Option other) const { option_->needs(other.option_); }
 
 Command::Command(const std::string& name, const std::string& description,
                  const std::string& version_text)
@@ -100,52 +73,52 @@ Command::Command(const std::string& name, const std::string& description,
   require_subcommand();
 }
 
-Command* Command::add_subcommand(const std::string& name, const std::string& description) {
+Command Command::add_subcommand(const std::string& name, const std::string& description) const {
   // Shares ownership of the tool's App, and points at the subcommand's.
-  subcommands_.push_back(
-      Command(std::shared_ptr<CLI::App>(app_, app_->add_subcommand(name, description))));
-  return &subcommands_.back();
+  return Command(std::shared_ptr<CLI::App>(app_, app_->add_subcommand(name, description)));
 }
 
 template <class Value>
-Option* Command::bind(const std::string& name, Value& value, const std::string& help) {
+Option Command::add_option(const std::string& name, Value& value, const std::string& help,
+                           const OptionRules& rules) const {
   const std::size_t end = std::min(name.find(' '), name.size());
   CLI::Option* option = app_->add_option(name.substr(0, end), value, in_help_column(help));
   option->type_name(end < name.size() ? name.substr(end + 1) : "");
-  return &options_.emplace_back(option);
+  if (!rules.group.empty()) option->group(rules.group);
+  option->required(rules.is_required);
+  if (rules.delimiter != '\0') option->delimiter(rules.delimiter);
+  if (rules.takes_one_word) option->allow_extra_args(false);
+  return Option(option);
 }
 
-Option* Command::add_option(const std::string& name, std::string& value, const std::string& help) {
-  return bind(name, value, help);
+using Words = std::vector<std::string>;
+using OptionalWord = std::optional<std::string>;
+template Option Command::add_option(const std::string& name, std::string& value,
+                                    const std::string& help, const OptionRules& rules) const;
+template Option Command::add_option(const std::string& name, OptionalWord& value,
+                                    const std::string& help, const OptionRules& rules) const;
+template Option Command::add_option(const std::string& name, Words& value, const std::string& help,
+                                    const OptionRules& rules) const;
+
+Option Command::add_flag(const std::string& name, bool& value, const std::string& help) const {
+  return Option(app_->add_flag(name, value, in_help_column(help)));
 }
 
-Option* Command::add_option(const std::string& name, std::optional<std::string>& value,
-                            const std::string& help) {
-  return bind(name, value, help);
-}
-
-Option* Command::add_option(const std::string& name, std::vector<std::string>& values,
-                            const std::string& help) {
-  return bind(name, values, help);
-}
-
-Option* Command::add_flag(const std::string& name, bool& value, const std::string& help) {
-  return &options_.emplace_back(app_->add_flag(name, value, in_help_column(help)));
-}
-
-std::vector<Option*> Command::options() {
-  std::vector<Option*> all;
-  for (Option& option : options_) all.push_back(&option);
+std::vector<Option> Command::options() const {
+  std::vector<Option> all;
+  for (CLI::Option* option : app_->get_options()) {
+    if (option != app_->get_help_ptr()) all.emplace_back(option);
+  }
   return all;
 }
 
-void Command::footer(const std::string& text) { app_->footer(text); }
+void Command::footer(const std::string& text) const { app_->footer(text); }
 
-void Command::callback(std::function<void()> done) { app_->callback(std::move(done)); }
+void Command::callback(std::function<void()> done) const { app_->callback(std::move(done)); }
 
-void Command::require_subcommand() { app_->require_subcommand(1); }
+void Command::require_subcommand() const { app_->require_subcommand(1); }
 
-std::optional<Command::Message> Command::parse(std::vector<std::string> words) {
+std::optional<Command::Message> Command::parse(std::vector<std::string> words) const {
   if (!words.empty() && words.front() == "help") {  // help VERB is VERB --help
     words.erase(words.begin());
     words.emplace_back("--help");

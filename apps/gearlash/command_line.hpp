@@ -1,7 +1,6 @@
 // Subcommands and options of the command line; CLI11, which reads them, is compiled in one place.
 #pragma once
 
-#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -15,22 +14,23 @@ class Option;
 
 namespace gearlash::cli {
 
-/// An option or a positional argument of a command. Each call returns this option again.
+/// Beside its name, value and help.
+struct OptionRules {
+  std::string group{};          ///< the heading under which the help lists it
+  bool is_required = false;     ///< must be given
+  char delimiter = '\0';        ///< one word may hold several values, separated by this character
+  bool takes_one_word = false;  ///< further words after the first are no values of this option
+};
+
+/// An option or a positional argument of a command.
 class Option {
  public:
   explicit Option(CLI::Option* option) : option_(option) {}
 
-  /// The heading under which the help lists it.
-  Option* group(const std::string& heading);
-  Option* required();
-  /// One word may hold several values, separated by this character.
-  Option* delimiter(char character);
-  /// Whether further words after the first are values of this option too.
-  Option* allow_extra_args(bool allowed);
   /// May not be given together with the other one.
-  Option* excludes(Option* other);
+  void excludes(Option other) const;
   /// May only be given together with the other one.
-  Option* needs(Option* other);
+  void needs(Option other) const;
 
  private:
   CLI::Option* option_;
@@ -42,23 +42,22 @@ class Command {
   /// The tool itself: --help, --version, and one of its subcommands.
   Command(const std::string& name, const std::string& description, const std::string& version_text);
 
-  Command* add_subcommand(const std::string& name, const std::string& description);
+  Command add_subcommand(const std::string& name, const std::string& description) const;
   /// `name`: "--step ANGLE", the option and what the help shows for its value; without leading
-  /// dashes it is a positional argument. The help is broken into lines.
-  Option* add_option(const std::string& name, std::string& value, const std::string& help);
-  Option* add_option(const std::string& name, std::optional<std::string>& value,
-                     const std::string& help);
-  Option* add_option(const std::string& name, std::vector<std::string>& values,
-                     const std::string& help);
-  Option* add_flag(const std::string& name, bool& value, const std::string& help);
+  /// dashes it is a positional argument. The help is broken into lines. `value`: a string, an
+  /// optional one, or a list of them.
+  template <class Value>
+  Option add_option(const std::string& name, Value& value, const std::string& help,
+                    const OptionRules& rules = {}) const;
+  Option add_flag(const std::string& name, bool& value, const std::string& help) const;
   /// The options added so far.
-  std::vector<Option*> options();
+  std::vector<Option> options() const;
   /// Text at the end of its help.
-  void footer(const std::string& text);
+  void footer(const std::string& text) const;
   /// Called once this command has been parsed without fault.
-  void callback(std::function<void()> done);
+  void callback(std::function<void()> done) const;
   /// One of its subcommands must be given.
-  void require_subcommand();
+  void require_subcommand() const;
 
   /// A text to print instead of running a command.
   struct Message {
@@ -67,16 +66,12 @@ class Command {
   };
   /// Reads the words of a command line, the tool's name left out. Throws InvalidInput where a
   /// subcommand is missing or unknown.
-  std::optional<Message> parse(std::vector<std::string> words);
+  std::optional<Message> parse(std::vector<std::string> words) const;
 
  private:
   explicit Command(std::shared_ptr<CLI::App> app) : app_(std::move(app)) {}
-  template <class Value>
-  Option* bind(const std::string& name, Value& value, const std::string& help);
 
-  std::shared_ptr<CLI::App> app_;    // owned by the tool's
-  std::deque<Command> subcommands_;  // a deque, so that pointers to elements stay valid
-  std::deque<Option> options_;
+  std::shared_ptr<CLI::App> app_;  // owned by the tool's
 };
 
 /// The bytes of a size such as "200 MB" or "1 GiB"; empty if it is none.

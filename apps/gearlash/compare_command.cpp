@@ -1,21 +1,14 @@
 // gearlash compare: drives, or the values of one parameter, side by side.
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 #include <set>
 
-#include "command.hpp"
 #include "grid_options.hpp"
 #include "input/units.hpp"
-#include "limit_options.hpp"
-#include "machine_faults.hpp"
 #include "output/comparison_report.hpp"
-#include "output/output_file.hpp"
 #include "picture/comparison_picture.hpp"
-#include "plot_option.hpp"
 #include "question/analyse.hpp"
-#include "servo_options.hpp"
-#include "terminal.hpp"
+#include "verb.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -30,17 +23,13 @@ constexpr char compare_examples[] =
     "  gearlash compare --damping 0.19 --inertia-ratio 2 --friction-ratio 0.1 --backlash 0.3 \\\n"
     "      --x restitution=0:0.6:4 --format json\n";
 
-struct CompareOptions {
-  ServoOptions servo;
+struct CompareOptions : QuestionOptions {
   std::vector<std::string> files;
   std::string x;
   std::vector<std::string> quantities;
   std::optional<std::string> step;
   std::optional<std::string> until;
-  std::string format = "text";
   bool brief = false;
-  LimitOptions limits;
-  std::vector<std::string> plots;
 };
 
 struct CompareTask {
@@ -160,64 +149,55 @@ ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
   task.report.provenance = provenance;
   task.how.motion_bytes = bytes_of_motion(limits, task.drives.size());
   LimitedWork work(limits);
-  {
-    TerminalProgress progress(work, "Comparing", task.drives.size(), "drives");
-    task.report.drives = compare(task.drives, task.how, progress);
-  }
-  Extras extras;
-  extras.print(printed(task.report, options));
+  task.report.drives =
+      compare(task.drives, task.how,
+              TerminalProgress(work, "Comparing", task.drives.size(), "drives").as_argument());
   const bool decided =
       std::all_of(task.report.drives.begin(), task.report.drives.end(),
                   [](const ComparedDrive& one) { return one.answer && is_decided(*one.answer); });
-  const ExitStatus status = end_work(work, decided ? ExitStatus::done : ExitStatus::undecided,
-                                     "searches are not complete, or not begun");
-  for (const PlotFile& plot : plots) {
-    extras.make([&] { write_plot(plot, comparison_plot(task.report)); });
-  }
-  return extras.status(status);
+  return give({.text = printed(task.report, options),
+               .is_decided = decided,
+               .unknown = "searches are not complete, or not begun"},
+              work, plots, [&](const PlotFile&) { return comparison_plot(task.report); });
 }
 
 }  // namespace
 
-void add_compare_command(Command& app, Action& action) {
-  const auto options = std::make_shared<CompareOptions>();
-  Command* command =
-      app.add_subcommand("compare", "Compare drives, or the values of one parameter, side by side");
-  command->add_option(
-      "DRIVE.toml", options->files,
+void add_compare_command(const Command& app, Action& action) {
+  const auto [command, options] = add_verb<CompareOptions>(
+      app, action, "compare", "Compare drives, or the values of one parameter, side by side",
+      help_footer(compare_examples), run);
+  command.add_option(
+      "DRIVE.toml", options.files,
       "Read drives from these files: data sheets or normalised servos "
       "(docs/reference/data-sheets.md), or any drives (docs/reference/drives.md); - is "
       "standard input");
-  command->add_option(
-      "--x AXIS", options->x,
+  command.add_option(
+      "--x AXIS", options.x,
       "Compare one drive with these values: PATH=A,B,C, PATH=FROM:TO:COUNT or "
       "PATH=FROM:TO:COUNT:log, with units; PATH is any number or choice of the drive, "
       "or damping, inertia-ratio, … of the normal form; default "
       "sensor.position=load,motor,both");
   add_drive_options(
-      *command, options->servo,
+      command, options.servo,
       "Compare one drive with these places of the position sensor, as --x "
       "sensor.position=LIST does: load, motor and both (position of the load, speed of "
       "the motor); of several files, or with --x, one place");
-  command
-      ->add_option("--quantities NAMES", options->quantities,
-                   "Show these quantities, separated by commas: amplitude, static-error, … "
-                   "(docs/reference/command-line.md)")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  command->add_option("--step ANGLE", options->step,
-                      "Set the step of the reference, in rad or with a unit; default ten times the "
-                      "backlash of the first drive, or 1 deg without one");
-  command->add_option(
-      "--until TIME", options->until,
+  command.add_option("--quantities NAMES", options.quantities,
+                     "Show these quantities, separated by commas: amplitude, static-error, … "
+                     "(docs/reference/command-line.md)",
+                     {.delimiter = ',', .takes_one_word = true});
+  command.add_option("--step ANGLE", options.step,
+                     "Set the step of the reference, in rad or with a unit; default ten times the "
+                     "backlash of the first drive, or 1 deg without one");
+  command.add_option(
+      "--until TIME", options.until,
       "Set the end of the step responses; default twenty periods of each loop, or more "
       "where the load needs longer to rise");
-  command->add_option("--format FORMAT", options->format,
-                      "Choose the format: text (default) or json");
-  command->add_flag("--brief", options->brief, "Print the headlines alone");
-  add_plot_option(*command, options->plots, "Draw time=FILE, the step responses;");
-  add_limit_options(*command, options->limits);
-  set_action(*command, action, options, help_footer(compare_examples), run);
+  add_format_option(command, options.format);
+  command.add_flag("--brief", options.brief, "Print the headlines alone");
+  add_plot_option(command, options.plots, "Draw time=FILE, the step responses;");
+  add_limit_options(command, options.limits);
 }
 
 }  // namespace gearlash::cli

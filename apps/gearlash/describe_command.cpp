@@ -1,18 +1,9 @@
 // gearlash describe: what describing functions predict, beside the exact cycle.
-#include <algorithm>
-#include <memory>
-
-#include "command.hpp"
 #include "gearlash/analyse.hpp"
 #include "input/units.hpp"
-#include "limit_options.hpp"
-#include "machine_faults.hpp"
 #include "output/describe_report.hpp"
-#include "output/output_file.hpp"
 #include "picture/nyquist_picture.hpp"
-#include "plot_option.hpp"
-#include "servo_options.hpp"
-#include "terminal.hpp"
+#include "verb.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -26,78 +17,62 @@ constexpr char describe_explanation[] =
     "A cycle is predicted where the loop's gain meets -1/N(A). N is the gain of a nonlinearity\n"
     "for a sine of amplitude A. Each nonlinearity is described by itself, without the others.\n\n";
 
-struct DescribeOptions {
-  ServoOptions servo;
-  std::string format = "text";
-  LimitOptions limits;
-  std::vector<std::string> plots;
+struct DescribeOptions : QuestionOptions {
   std::string part;
 };
 
-drive::DescribedPart part_of(const std::string& name) {
-  using drive::DescribedPart;
-  if (name == "elastic-gap") return DescribedPart::elastic_gap;
-  if (name == "torque-limit") return DescribedPart::torque_limit;
-  if (name == "coulomb-friction") return DescribedPart::coulomb_friction;
-  if (name == "dead-band") return DescribedPart::dead_band;
-  if (name == "relay") return DescribedPart::relay;
-  return DescribedPart::gap_load_held;
-}
-
-/// The answer of limit-cycle.
-Answer searched(const Drive& drive, LimitedWork& work) {
-  TerminalProgress progress(work, "Searching");
-  return analyse(drive, {.ceiling = true, .quantization = true}, progress);
-}
+/// A part as --part has it, and as the title of its picture has it.
+struct DrawnPart {
+  drive::DescribedPart part;
+  const char* word;
+  const char* title;
+};
+constexpr DrawnPart drawn_parts[] = {
+    {drive::DescribedPart::gap_load_held, "gap", "The gap by its describing functions"},
+    {drive::DescribedPart::elastic_gap, "elastic-gap",
+     "A gap with elastic faces by its describing function"},
+    {drive::DescribedPart::torque_limit, "torque-limit",
+     "The torque limit by its describing function"},
+    {drive::DescribedPart::coulomb_friction, "coulomb-friction",
+     "Coulomb friction by its describing function"},
+    {drive::DescribedPart::dead_band, "dead-band", "The dead band by its describing function"},
+    {drive::DescribedPart::relay, "relay", "The relay by its describing function"}};
 
 void check_part(const DescribeOptions& options, Faults& faults) {
   if (options.part.empty()) return;
-  faults.require_choice(
-      "--part", options.part,
-      {"gap", "elastic-gap", "torque-limit", "coulomb-friction", "dead-band", "relay"});
+  std::vector<std::string> words;
+  for (const DrawnPart& drawn : drawn_parts) words.emplace_back(drawn.word);
+  faults.require_choice("--part", options.part, words);
   if (options.plots.empty()) {
     faults.add(
         {"--part", shown(options.part), "must come with --plot: it chooses what to draw", ""});
   }
 }
 
-/// The analyses to draw: those of --part, else those of the first part in a loop.
-std::vector<drive::DescribingAnalysis> analyses_to_draw(
-    const std::vector<drive::DescribingAnalysis>& analyses, const DescribeOptions& options) {
-  if (!options.part.empty()) return loop_analyses(analyses, part_of(options.part));
-  const auto first = std::find_if(analyses.begin(), analyses.end(), drive::is_in_loop);
-  return first == analyses.end() ? std::vector<drive::DescribingAnalysis>{}
-                                 : loop_analyses(analyses, first->part);
-}
-
-const char* title_of(drive::DescribedPart part) {
-  switch (part) {
-    case drive::DescribedPart::elastic_gap:
-      return "A gap with elastic faces by its describing function";
-    case drive::DescribedPart::torque_limit:
-      return "The torque limit by its describing function";
-    case drive::DescribedPart::coulomb_friction:
-      return "Coulomb friction by its describing function";
-    case drive::DescribedPart::dead_band:
-      return "The dead band by its describing function";
-    case drive::DescribedPart::relay:
-      return "The relay by its describing function";
-    default:
-      return "The gap by its describing functions";
+/// The part to draw: that of --part, else the first one in a loop. Empty where there is none.
+std::optional<DrawnPart> part_to_draw(const DescribeReport& report,
+                                      const DescribeOptions& options) {
+  for (const drive::DescribingAnalysis& analysis : report.analyses) {
+    if (!drive::is_in_loop(analysis)) continue;
+    for (const DrawnPart& drawn : drawn_parts) {
+      const bool is_asked = options.part.empty() || drawn.word == options.part;
+      if (is_asked && !loop_analyses({analysis}, drawn.part).empty()) return drawn;
+    }
   }
+  return std::nullopt;
 }
 
 Plot plot_of(const DescribeReport& report, const DescribeOptions& options) {
-  const auto drawn = analyses_to_draw(report.analyses, options);
-  if (drawn.empty()) {
+  const std::optional<DrawnPart> drawn = part_to_draw(report, options);
+  if (!drawn) {
     throw InvalidInput(
         {options.part.empty()
              ? Fault{"--plot", "nyquist", "must be left out: this drive feeds nothing back", ""}
              : Fault{"--part", shown(options.part),
                      "must be a part that the drive has inside its loop", ""}});
   }
-  return nyquist_plot({.title = title_of(drawn.front().part),
-                       .analyses = drawn,
+  return nyquist_plot({.title = drawn->title,
+                       .analyses = loop_analyses(report.analyses, drawn->part),
                        .exact = drive::exact_motions(report.answer),
                        .angle = report.angle,
                        .is_normalized = report.is_normalized});
@@ -113,39 +88,34 @@ ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
   faults.require_none();
 
   LimitedWork work(limits);
-  const Answer answer = searched(written->drive, work);
+  const Answer answer = analyse(written->drive, {.ceiling = true, .quantization = true},
+                                TerminalProgress(work, "Searching").as_argument());
   const DescribeReport report =
       describe_report_of(written->drive, answer, written->angle, provenance);
-  Extras extras;
-  extras.print(options.format == "json" ? describe_json(report)
-                                        : with_bold_headline(describe_text(report)));
   const bool decided = answer.verdict != Verdict::undecided;
-  if (!decided) report_lines("the exact answer is undecided");
-  const ExitStatus status = end_work(work, decided ? ExitStatus::done : ExitStatus::undecided,
-                                     "the search is not complete");
-  for (const PlotFile& plot : plots) {
-    extras.make([&] { write_plot(plot, plot_of(report, options)); });
-  }
-  return extras.status(status);
+  return give({.text = options.format == "json" ? describe_json(report)
+                                                : with_bold_headline(describe_text(report)),
+               .remark = decided ? "" : "the exact answer is undecided",
+               .is_decided = decided,
+               .unknown = "the search is not complete"},
+              work, plots, [&](const PlotFile&) { return plot_of(report, options); });
 }
 
 }  // namespace
 
-void add_describe_command(Command& app, Action& action) {
-  const auto options = std::make_shared<DescribeOptions>();
-  Command* command = app.add_subcommand(
-      "describe", "Compare what describing functions predict with the exact cycle");
-  add_servo_or_drive_options(*command, options->servo);
-  command->add_option("--format FORMAT", options->format,
-                      "Choose the format: text (default) or json");
-  add_plot_option(*command, options->plots,
+void add_describe_command(const Command& app, Action& action) {
+  const auto [command, options] = add_verb<DescribeOptions>(
+      app, action, "describe", "Compare what describing functions predict with the exact cycle",
+      describe_explanation + help_footer(describe_examples), run);
+  add_servo_or_drive_options(command, options.servo);
+  add_format_option(command, options.format);
+  add_plot_option(command, options.plots,
                   "Draw nyquist=FILE, the loop's gain against -1/N, with the exact cycle;");
-  command->add_option(
-      "--part PART", options->part,
+  command.add_option(
+      "--part PART", options.part,
       "Draw this part: gap, elastic-gap, torque-limit, coulomb-friction, dead-band or "
       "relay; default the first part in the loop");
-  add_limit_options(*command, options->limits);
-  set_action(*command, action, options, describe_explanation + help_footer(describe_examples), run);
+  add_limit_options(command, options.limits);
 }
 
 }  // namespace gearlash::cli

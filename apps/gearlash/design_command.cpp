@@ -1,26 +1,15 @@
 // gearlash design: the changes of a drive that meet a target.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <memory>
-#include <utility>
 
-#include "base/progress_part.hpp"
-#include "command.hpp"
 #include "grid_options.hpp"
 #include "input/axis_text.hpp"
-#include "limit_options.hpp"
-#include "machine_faults.hpp"
 #include "output/design_report.hpp"
-#include "output/output_file.hpp"
 #include "picture/grid_map.hpp"
-#include "plot_option.hpp"
 #include "question/axis.hpp"
 #include "question/change/design.hpp"
-#include "question/change/values.hpp"
-#include "servo_options.hpp"
-#include "terminal.hpp"
+#include "verb.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -43,15 +32,11 @@ constexpr char design_examples[] =
     "  gearlash design --damping 0.19 --inertia-ratio 2 --friction-ratio 1/10 --backlash 0.3 \\\n"
     "      --target \"amplitude <= 0.1\"\n";
 
-struct DesignOptions {
-  ServoOptions servo;
+struct DesignOptions : QuestionOptions {
   std::string target;
   std::vector<std::string> parameters;
   std::vector<std::string> vary;
   std::string quantity = "bandwidth";
-  std::vector<std::string> plots;
-  std::string format = "text";
-  LimitOptions limits;
 };
 
 /// "2 of 5 parameters are not searched to the end".
@@ -62,11 +47,12 @@ std::string unknown_text(std::size_t known, std::size_t all) {
 
 /// An axis of the picture as typed; of a name alone its ends: those of usual_axis() but for a
 /// leading 0, by ratio three times as far.
-Axis read_axis_to_draw(const std::string& text, const Drive& drive, std::string* left_out) {
+Axis read_axis_to_draw(std::string_view field, std::string_view text, const Drive& drive,
+                       std::string* left_out) {
   constexpr double farther = 3.0;
-  Axis axis = read_axis_or_name("--vary", text, drive, left_out);
+  Axis axis = read_axis_or_name(field, text, drive, left_out);
   const bool is_word = unit_of(axis, drive).empty();
-  if (is_word || text.find('=') != std::string::npos) return axis;
+  if (is_word || text.find('=') != std::string_view::npos) return axis;
   if (axis.logarithmic) {
     const double low = axis.values[axis.values.front() == 0.0 ? 1 : 0];
     axis.values = {low / farther, axis.values.back() * farther};
@@ -91,20 +77,18 @@ bool are_two(const std::vector<std::string>& names) {
 /// The map of --vary, with the first parameter along x.
 GridTask read_region(const DesignOptions& options, const WrittenDrive& written,
                      const Target& target, Faults& faults) {
-  GridTask task{.verb = "map",
-                .grid = {.drive = written.drive},
-                .quantity = read_quantity(options.quantity, faults),
-                .angle = written.angle,
-                .has_boundary = true,
-                .target = target,
-                .target_text = options.target};
-  std::vector<Axis>& axes = task.grid.axes;
+  GridTask task;
+  task.title = "Map";
+  task.grid.drive = written.drive;
+  task.quantity = read_quantity(options.quantity, faults);
+  task.angle = written.angle;
+  task.has_boundary = true;
+  task.target = target;
+  task.target_text = options.target;
   if (!are_two(options.vary)) return task;
-  for (const std::string& text : options.vary) {
-    Axis axis = collect_axis([&](auto* out) { return read_axis_to_draw(text, written.drive, out); },
-                             faults);
-    if (!axis.values.empty()) axes.insert(axes.begin(), std::move(axis));
-  }
+  std::vector<Axis>& axes = task.grid.axes;
+  axes = collect_axes("--vary", options.vary, written.drive, read_axis_to_draw, faults);
+  std::reverse(axes.begin(), axes.end());
   const std::vector<std::string> fields = {"--vary", "--vary"};
   if (axes.size() != 2) return task;
   faults.add(gearlash::faults(task.grid, fields));
@@ -139,12 +123,7 @@ void check_options(const DesignOptions& options, Faults& faults) {
 std::vector<Axis> read_axes(const DesignOptions& options, const Drive& drive, Faults& faults) {
   std::vector<std::string> texts = options.parameters.empty() ? options.vary : options.parameters;
   if (texts.empty()) texts = usual_parameters(drive);
-  return collect_axes(
-      texts,
-      [&](const auto& text, auto* out) {
-        return read_axis_to_search("--parameters", text, drive, out);
-      },
-      faults);
+  return collect_axes("--parameters", texts, drive, read_axis_to_search, faults);
 }
 
 ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
@@ -165,65 +144,50 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
                       .target = target,
                       .angle = written->angle,
                       .provenance = provenance};
-  {
-    TerminalProgress progress(work, "Design");
-    report.design = design(drive, axes, target, progress);
-  }
+  report.design = design(drive, axes, target, TerminalProgress(work, "Design").as_argument());
   const auto known = static_cast<std::size_t>(
       std::count_if(report.design.parameters.begin(), report.design.parameters.end(),
                     [](const DesignedParameter& one) { return !one.values.stopped; }));
-  Extras extras;
-  extras.print(options.format == "json" ? design_json(report) : design_text(report));
-  const ExitStatus status = end_work(work, ExitStatus::done, unknown_text(known, axes.size()));
-  if (plots.empty()) return extras.status(status);
-  const GridTable table = work_out(region, work, provenance).table;
-  for (const PlotFile& plot : plots) {
-    extras.make([&] {
-      if (work.is_stopped()) {
-        throw OutputError(plot.file + ": not drawn: the work was stopped before");
-      }
-      write_plot(plot, map_plot(table, region.quantity));
-    });
-  }
-  return extras.status(status);
+  std::optional<GridTable> table;
+  return give({.text = options.format == "json" ? design_json(report) : design_text(report),
+               .unknown = unknown_text(known, axes.size())},
+              work, plots, [&](const PlotFile& plot) {
+                if (!table) table = work_out(region, work, provenance).table;
+                if (work.is_stopped()) refuse_to_draw(plot);
+                return map_plot(*table, region.quantity);
+              });
 }
 
 }  // namespace
 
-void add_design_command(Command& app, Action& action) {
-  const auto options = std::make_shared<DesignOptions>();
-  Command* command =
-      app.add_subcommand("design", "Find the changes that stop the hunting or meet another target");
-  add_servo_or_drive_options(*command, options->servo);
-  command
-      ->add_option("--target TARGET", options->target,
-                   "Set the target: no-hunting, no-hunting-if-disturbed or no-runaway; or "
-                   "amplitude, frequency, ceiling, bandwidth or any other quantity, then <= or >=, "
-                   "then a limit; \"and\" joins several")
-      ->required();
-  command
-      ->add_option("--parameters NAMES", options->parameters,
-                   "List the parameters that may change, separated by commas: any number or choice "
-                   "by its path, such as gearbox.ratio, or with a range, PATH=FROM:TO:COUNT[:log], "
-                   "with units; default those of --vary, else those that are easiest to change. "
-                   "Without a range: 0.001 to 1000 times the present value where the closed form "
-                   "answers, else 0.1 to 10 times")
-      ->delimiter(',');
-  command
-      ->add_option("--vary X,Y", options->vary,
-                   "Choose two parameters, separated by a comma, each with or without a range; "
-                   "--plot draws where both together meet the target")
-      ->delimiter(',');
-  command->add_option(
-      "--quantity NAME", options->quantity,
-      "Draw contours of this quantity beside it: bandwidth (default), phase-margin, "
-      "amplitude, …");
-  add_plot_option(*command, options->plots,
+void add_design_command(const Command& app, Action& action) {
+  const auto [command, options] = add_verb<DesignOptions>(
+      app, action, "design", "Find the changes that stop the hunting or meet another target",
+      help_footer(design_examples), run);
+  add_servo_or_drive_options(command, options.servo);
+  command.add_option("--target TARGET", options.target,
+                     "Set the target: no-hunting, no-hunting-if-disturbed or no-runaway; or "
+                     "amplitude, frequency, ceiling, bandwidth or any other quantity, then <= or "
+                     ">=, then a limit; \"and\" joins several",
+                     {.is_required = true});
+  command.add_option(
+      "--parameters NAMES", options.parameters,
+      "List the parameters that may change, separated by commas: any number or choice by its path, "
+      "such as gearbox.ratio, or with a range, PATH=FROM:TO:COUNT[:log], with units; default those "
+      "of --vary, else those that are easiest to change. Without a range: 0.001 to 1000 times the "
+      "present value where the closed form answers, else 0.1 to 10 times",
+      {.delimiter = ','});
+  command.add_option("--vary X,Y", options.vary,
+                     "Choose two parameters, separated by a comma, each with or without a range; "
+                     "--plot draws where both together meet the target",
+                     {.delimiter = ','});
+  command.add_option("--quantity NAME", options.quantity,
+                     "Draw contours of this quantity beside it: bandwidth (default), phase-margin, "
+                     "amplitude, …");
+  add_plot_option(command, options.plots,
                   "Draw region=FILE, where the parameters of --vary meet the target;");
-  command->add_option("--format FORMAT", options->format,
-                      "Choose the format: text (default) or json");
-  add_limit_options(*command, options->limits);
-  set_action(*command, action, options, help_footer(design_examples), run);
+  add_format_option(command, options.format);
+  add_limit_options(command, options.limits);
 }
 
 }  // namespace gearlash::cli

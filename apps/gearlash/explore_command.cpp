@@ -1,18 +1,14 @@
 // gearlash explore: the drive in a page of its own, which any browser opens without a network.
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 #include <nlohmann/json.hpp>
 
-#include "command.hpp"
 #include "input/section_reader.hpp"
 #include "input/text_file.hpp"
 #include "input/utf8.hpp"
-#include "machine_faults.hpp"
 #include "model/parameters.hpp"
 #include "output/drive_text.hpp"
-#include "output/output_file.hpp"
-#include "servo_options.hpp"
+#include "verb.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -131,16 +127,15 @@ ExitStatus run(const ExploreOptions& options, const Provenance&) {
 
 }  // namespace
 
-void add_explore_command(Command& app, Action& action) {
-  const auto options = std::make_shared<ExploreOptions>();
-  Command* command = app.add_subcommand(
-      "explore", "Write the drive as a page for the browser, with sliders and pictures");
-  add_servo_or_drive_options(*command, options->servo);
-  command
-      ->add_option("--output FILE", options->output,
-                   "Write this page, .html: one file, which works offline and in a mail")
-      ->required();
-  set_action(*command, action, options, help_footer(explore_examples), run);
+void add_explore_command(const Command& app, Action& action) {
+  const auto [command, options] = add_verb<ExploreOptions>(
+      app, action, "explore",
+      "Write the drive as a page for the browser, with sliders and pictures",
+      help_footer(explore_examples), run);
+  add_servo_or_drive_options(command, options.servo);
+  command.add_option("--output FILE", options.output,
+                     "Write this page, .html: one file, which works offline and in a mail",
+                     {.is_required = true});
 }
 
 }  // namespace gearlash::cli

@@ -5,18 +5,15 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <deque>
 #include <filesystem>
-#include <memory>
 
 #include "base/progress_part.hpp"
 #include "base/range_check.hpp"
-#include "machine_faults.hpp"
-#include "picture/gnuplot_renderer.hpp"
 #include "picture/grid_map.hpp"
 #include "question/family/evaluation.hpp"
 #include "question/map/grid_pieces.hpp"
 #include "question/map/hunting_boundary.hpp"
-#include "terminal.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -92,16 +89,6 @@ std::optional<WrittenDrive> read_fixed_drive(const ServoOptions& options,
 
 namespace {
 
-std::vector<Axis> read_axes(const std::vector<AxisText>& texts, const Drive& drive,
-                            Faults& faults) {
-  std::vector<Axis> axes;
-  for (const AxisText& text : texts) {
-    Axis axis = collect_axis([&](auto* out) { return read_axis(text, drive, out); }, faults);
-    if (!axis.values.empty()) axes.push_back(std::move(axis));
-  }
-  return axes;
-}
-
 /// The extension in lower case.
 std::string ending_of(const std::string& file) {
   std::string ending = std::filesystem::path(file).extension().string();
@@ -118,7 +105,7 @@ void read_outputs(const GridOptions& options, const std::vector<std::string>& ki
   if (ending == ".svg" || ending == ".png" || ending == ".pdf") {
     task.plots.push_back({kind, options.output, picture_format("--output", options.output)});
   } else if (ending == ".csv" || ending == ".json" || ending == ".nc") {
-    task.table = options.output;
+    task.table_file = options.output;
   } else if (!options.output.empty()) {
     faults.add({"--output", shown(options.output),
                 "must end in .svg, .png, .pdf, .csv, .json or .nc", ""});
@@ -147,7 +134,7 @@ void require_room(const Grid& grid) {
 /// All quantities for a table; only the needed ones for pictures alone.
 std::vector<Quantity> quantities_of(const GridTask& task) {
   const EnginesNeeded engines = Family(task.grid).engines();
-  if (task.table.empty()) {
+  if (task.table_file.empty()) {
     std::vector<Quantity> drawn = {Quantity::growth_at_rest, task.quantity};
     const auto ceiling = ceiling_over(task.quantity);
     const bool has_ceiling = task.has_boundary && engines.search && !task.target;
@@ -160,16 +147,11 @@ std::vector<Quantity> quantities_of(const GridTask& task) {
   return all;
 }
 
-/// Opens a file before the work, so that it is known to be writable.
-std::unique_ptr<OutputFile> opened(const std::string& file) {
-  return file.empty() ? nullptr : std::make_unique<OutputFile>(file);
-}
-
 void write_table(const GridTask& task, const GridTable& table, const RowCount& count,
                  OutputFile& output) {
   const auto sink = [&](std::string_view text) { output.write(text); };
-  if (ending_of(task.table) == ".csv") return write_grid_csv(table, sink);
-  if (ending_of(task.table) == ".json") return write_grid_json(table, sink);
+  if (ending_of(task.table_file) == ".csv") return write_grid_csv(table, sink);
+  if (ending_of(task.table_file) == ".json") return write_grid_json(table, sink);
   GridNetcdf file = GridNetcdf::create(output.hidden_file(), output.shown_name(),
                                        {task.grid, quantities_of(task), table.provenance, ""});
   file.write({0, table.table, count});
@@ -180,7 +162,7 @@ void write_table(const GridTask& task, const GridTable& table, const RowCount& c
 
 }  // namespace
 
-void add_grid_options(Command& command, GridOptions& options, const std::string& drawing) {
+void add_grid_options(const Command& command, GridOptions& options, const std::string& drawing) {
   command.add_option("--quantity NAME", options.quantity,
                      "Draw this quantity: amplitude (default), period, growth_at_rest, …");
   command.add_option("--output FILE", options.output,
@@ -246,23 +228,26 @@ std::optional<MapPoint> place_on_map(const Grid& grid) {
 }
 
 GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption>& typed_axes,
-                        const std::string& verb, const std::vector<std::string>& kinds) {
+                        const std::string& title, const std::vector<std::string>& kinds) {
   Faults faults;
   const std::vector<AxisText> texts = split_axes(typed_axes, faults);
   GridTask task;
-  task.verb = verb;
+  task.title = title;
   task.quantity = read_quantity(options.quantity, faults);
   task.limits = read_limits(options.limits, faults);
   read_outputs(options, kinds, task, faults);
   std::vector<FileUse> outputs = files_of(task.plots);
-  if (!task.table.empty()) outputs.push_back({"--output", task.table});
+  if (!task.table_file.empty()) outputs.push_back({"--output", task.table_file});
   const std::optional<WrittenDrive> written =
       read_fixed_drive(options.servo, texts, texts.size() == typed_axes.size(), outputs, faults);
   const bool is_known = written || options.servo.file.empty();
   task.grid.proved = options.proved;
   if (written) task.angle = written->angle;
   task.grid.drive = drive_of_axes(written ? written->drive : normal_form(0.5, 1.0, 0.5), texts);
-  if (is_known) task.grid.axes = read_axes(texts, task.grid.drive, faults);
+  const auto read_one = [&](const AxisText& text, std::string* left_out) {
+    return read_axis(text, task.grid.drive, left_out);
+  };
+  if (is_known) task.grid.axes = collect_axes(texts, read_one, faults);
   read_map_target(options, written.has_value(), task, faults);
   const bool are_read = task.grid.axes.size() == typed_axes.size();
   std::vector<std::string> fields;
@@ -288,8 +273,6 @@ std::string solved_text(const RowCount& count) {
 }
 
 namespace {
-
-const char* title_of(const GridTask& task) { return task.verb == "map" ? "Map" : "Chart"; }
 
 /// Writes each block while the next one is computed, instead of output.write().
 RowCount write_netcdf(const GridTask& task, const Provenance& provenance, const OutputFile& output,
@@ -321,27 +304,24 @@ RowCount write_netcdf(const GridTask& task, const Provenance& provenance, const 
 }  // namespace
 
 WorkedOut work_out(const GridTask& task, LimitedWork& work, const Provenance& provenance) {
-  WorkedOut done{.table = {.grid = task.grid,
-                           .table = Table(task.grid.size(), quantities_of(task)),
-                           .provenance = provenance,
-                           .angle = task.angle,
-                           .target = task.target,
-                           .target_text = task.target_text,
-                           .present = task.present}};
-  std::optional<TerminalProgress> progress;
-  progress.emplace(work, title_of(task), task.grid.size(), "points");
-  done.count = gearlash::work_out(done.table, *progress);
-  if (!task.has_boundary) return done;
-  progress.emplace(work, "Borders");
-  add_borders(done.table, *progress);
+  WorkedOut done{.table = task};
+  done.table.table = Table(task.grid.size(), quantities_of(task));
+  done.table.provenance = provenance;
+  done.count = gearlash::work_out(
+      done.table, TerminalProgress(work, task.title, task.grid.size(), "points").as_argument());
+  if (task.has_boundary) {
+    add_borders(done.table, TerminalProgress(work, "Borders").as_argument());
+  }
   return done;
 }
 
 ExitStatus make_grid_files(const GridTask& task, LimitedWork& work, const Provenance& provenance,
                            GridPlot plot) {
-  const std::unique_ptr<OutputFile> output = opened(task.table);
-  std::vector<std::unique_ptr<OutputFile>> pictures;
-  for (const PlotFile& file : task.plots) pictures.push_back(opened(file.file));
+  // Opened before the work, so that they are known to be writable.
+  std::optional<OutputFile> output;
+  if (!task.table_file.empty()) output.emplace(task.table_file);
+  std::deque<OutputFile> pictures;
+  for (const PlotFile& file : task.plots) pictures.emplace_back(file.file);
   WorkedOut done;
   Extras extras;
   std::string made;
@@ -349,9 +329,10 @@ ExitStatus make_grid_files(const GridTask& task, LimitedWork& work, const Proven
     file.commit();
     made += (made.empty() ? "" : ", ") + file.shown_name();
   };
-  const bool is_streamed = task.plots.empty() && !task.target && ending_of(task.table) == ".nc";
+  const bool is_streamed =
+      task.plots.empty() && !task.target && ending_of(task.table_file) == ".nc";
   if (is_streamed) {
-    TerminalProgress progress(work, title_of(task), task.grid.size(), "points");
+    TerminalProgress progress(work, task.title, task.grid.size(), "points");
     done.count = write_netcdf(task, provenance, *output, progress);
   } else {
     done = work_out(task, work, provenance);
@@ -371,8 +352,8 @@ ExitStatus make_grid_files(const GridTask& task, LimitedWork& work, const Proven
   }
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     extras.make([&] {
-      pictures[i]->write(draw(plot(table, task.quantity), task.plots[i].format));
-      commit(*pictures[i]);
+      pictures[i].write(draw(plot(table, task.quantity), task.plots[i].format));
+      commit(pictures[i]);
     });
   }
   extras.print((made.empty() ? "" : made + ": ") + solved_text(count) + "\n");

@@ -1,18 +1,14 @@
 // Axes, drive, quantity and outputs of the commands that evaluate a grid: chart and map.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "command.hpp"
 #include "input/axis_text.hpp"
-#include "limit_options.hpp"
 #include "output/grid_netcdf.hpp"
 #include "output/grid_table.hpp"
-#include "plot_option.hpp"
-#include "servo_options.hpp"
+#include "verb.hpp"
 
 namespace gearlash::cli {
 
@@ -39,19 +35,19 @@ inline constexpr char axis_help[] =
     "PATH=A,B,C, with units; PATH is any number or choice of the drive,\n"
     "or damping, inertia-ratio, … of the normal form";
 
-/// --quantity, --output, --plot (whose kind draws `drawing`) and the options of the drive.
-void add_grid_options(Command& command, GridOptions& options, const std::string& drawing);
+/// Precedes the examples in the help.
+inline constexpr char backlashes_explanation[] =
+    "Without --backlash, amplitudes are in backlashes, because they are proportional to it.\n\n";
 
-struct GridTask {
-  std::string verb{};  ///< "chart", "map"
-  Grid grid{};
+/// --quantity, --output, --plot (whose kind draws `drawing`) and the options of the drive.
+void add_grid_options(const Command& command, GridOptions& options, const std::string& drawing);
+
+/// A table without its answers, and what to make of it.
+struct GridTask : GridTable {
+  std::string title{};  ///< of the work
   Quantity quantity = Quantity::amplitude;
-  AngleUnit angle{};          ///< of the file's backlash
   bool has_boundary = false;  ///< computes where hunting ends
-  std::optional<Target> target{};
-  std::string target_text{};
-  std::optional<MapPoint> present{};  ///< where the drive lies on a map with a target
-  std::string table{};                ///< file in .csv, .json or .nc; empty: none
+  std::string table_file{};   ///< in .csv, .json or .nc; empty: none
   std::vector<PlotFile> plots{};
   Limits limits{};
 };
@@ -67,7 +63,7 @@ std::optional<WrittenDrive> read_fixed_drive(const ServoOptions& options,
 /// backlashes. `kinds` are those of its pictures, that of --output first. Throws InvalidInput with
 /// all faults, among them too many points for the memory.
 GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption>& axes,
-                        const std::string& verb, const std::vector<std::string>& kinds);
+                        const std::string& title, const std::vector<std::string>& kinds);
 
 /// A quantity of numbers; a fault of --quantity otherwise, and amplitude.
 Quantity read_quantity(const std::string& text, Faults& faults);

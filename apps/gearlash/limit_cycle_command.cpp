@@ -1,24 +1,16 @@
 // gearlash limit-cycle: whether a drive hunts, with the amplitude and frequency.
-#include <memory>
 #include <numbers>
 
 #include "base/special_numbers.hpp"
-#include "command.hpp"
 #include "input/axis_text.hpp"
 #include "input/units.hpp"
-#include "limit_options.hpp"
-#include "machine_faults.hpp"
 #include "output/answer_report.hpp"
-#include "output/change_report.hpp"
-#include "output/output_file.hpp"
 #include "picture/answer_bars.hpp"
 #include "picture/answer_picture.hpp"
-#include "plot_option.hpp"
 #include "question/analyse.hpp"
 #include "question/change/derivatives.hpp"
 #include "question/change/margins.hpp"
-#include "servo_options.hpp"
-#include "terminal.hpp"
+#include "verb.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -37,11 +29,7 @@ constexpr char limit_cycle_examples[] =
     "  gearlash limit-cycle examples/robot-joint.toml --margins --parameters "
     "gearbox.backlash,load.inertia,motor.coulomb\n";
 
-struct LimitCycleOptions {
-  ServoOptions servo;
-  std::string format = "text";
-  std::vector<std::string> plots;
-  LimitOptions limits;
+struct LimitCycleOptions : QuestionOptions {
   std::string specification;
   std::string measured;
   bool brief = false;
@@ -79,20 +67,17 @@ Plot plot_of(const Result& result, const std::string& kind, LimitedWork& work) {
   if (kind == "tornado") return tornado_of(result);
   if (kind == "ceiling") return ceiling_of(result);
   if (kind == "time") return time_plot(response_picture(result.report, result.analysis));
-  TerminalProgress progress(work, "Basins");
-  return phase_plot(phase_picture(result.report, result.analysis, progress));
+  return phase_plot(phase_picture(result.report, result.analysis,
+                                  TerminalProgress(work, "Basins").as_argument()));
 }
 
 /// The parameters of the margins; none: the usual ones.
 std::vector<Axis> read_parameters(const LimitCycleOptions& options, const Drive& drive,
                                   Faults& faults) {
-  constexpr char field[] = "--parameters";
-  std::vector<Axis> axes = collect_axes(
-      options.parameters,
-      [&](const auto& text, auto* out) { return read_axis_to_search(field, text, drive, out); },
-      faults);
-  if (!axes.empty() && !options.margins) {
-    faults.add({field, options.parameters.front(), "must come with --margins", ""});
+  std::vector<Axis> axes =
+      collect_axes("--parameters", options.parameters, drive, read_axis_to_search, faults);
+  if (!options.parameters.empty() && !options.margins) {
+    faults.add({"--parameters", options.parameters.front(), "must come with --margins", ""});
   }
   return axes;
 }
@@ -112,22 +97,19 @@ void add_changes(Result& result, const Drive& drive, const Changes& wanted, Limi
         wanted.axes.empty() ? margins(drive, progress) : margins(drive, wanted.axes, progress);
   }
   if (!wanted.sensitivities) return;
-  TerminalProgress progress(work, "Sensitivities");
-  result.report.sensitivity = sensitivities(drive, result.analysis, progress);
+  result.report.sensitivity =
+      sensitivities(drive, result.analysis, TerminalProgress(work, "Sensitivities").as_argument());
 }
 
 /// `specification`: rad, or 0.
 Result analysed(const WrittenDrive& written, double specification, const Provenance& provenance,
                 LimitedWork& work) {
-  Result result;
-  {
-    TerminalProgress progress(work, "Searching");
-    const Wanted wanted{.ceiling = true,
-                        .quantization = true,
-                        .rest_band = specification,
-                        .motion_bytes = bytes_of_motion(work.limits())};
-    result.analysis = analyse_in_full(written.drive, wanted, progress);
-  }
+  const Wanted wanted{.ceiling = true,
+                      .quantization = true,
+                      .rest_band = specification,
+                      .motion_bytes = bytes_of_motion(work.limits())};
+  Result result{.analysis = analyse_in_full(written.drive, wanted,
+                                            TerminalProgress(work, "Searching").as_argument())};
   result.report = report_of(written.drive, result.analysis.answer, written.angle, provenance);
   return result;
 }
@@ -194,60 +176,53 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
   result.report.specification = specification;
   result.report.measured = measured;
   if (changes.margins || changes.sensitivities) add_changes(result, written->drive, changes, work);
-  Extras extras;
-  extras.print(printed(result, options));
   const bool decided = is_decided(result.report.answer);
-  if (!decided && !work.is_stopped()) report_lines(headline(result.report));
-  const ExitStatus status =
-      end_work(work, decided ? ExitStatus::done : ExitStatus::undecided,
-               decided ? "margins or bounds are missing" : headline(result.report));
-  for (const PlotFile& plot : plots) {
-    extras.make([&] { write_plot(plot, plot_of(result, plot.kind, work)); });
-  }
-  return extras.status(status);
+  const std::string open = decided ? "" : headline(result.report);
+  return give({.text = printed(result, options),
+               .remark = work.is_stopped() ? "" : open,
+               .is_decided = decided,
+               .unknown = decided ? "margins or bounds are missing" : open},
+              work, plots, [&](const PlotFile& plot) { return plot_of(result, plot.kind, work); });
 }
 
 }  // namespace
 
-void add_limit_cycle_command(Command& app, Action& action) {
-  const auto options = std::make_shared<LimitCycleOptions>();
-  Command* command = app.add_subcommand(
-      "limit-cycle", "Report whether a drive hunts, with the amplitude and frequency");
-  add_servo_or_drive_options(*command, options->servo);
-  command->add_option("--format FORMAT", options->format,
-                      "Choose the format: text (default) or json");
-  command->add_flag("--brief", options->brief, "Print the headline alone");
-  add_limit_options(*command, options->limits);
-  command->add_option(
-      "--specification ANGLE", options->specification,
+void add_limit_cycle_command(const Command& app, Action& action) {
+  const auto [command, options] = add_verb<LimitCycleOptions>(
+      app, action, "limit-cycle", "Report whether a drive hunts, with the amplitude and frequency",
+      help_footer(limit_cycle_examples), run);
+  add_servo_or_drive_options(command, options.servo);
+  add_format_option(command, options.format);
+  command.add_flag("--brief", options.brief, "Print the headline alone");
+  add_limit_options(command, options.limits);
+  command.add_option(
+      "--specification ANGLE", options.specification,
       "Add the widest backlash that provably keeps the load within this angle of the "
       "motion without a gap: \"0.5 deg\"");
-  command->add_option(
-      "--measured AMPLITUDE,FREQUENCY", options->measured,
+  command.add_option(
+      "--measured AMPLITUDE,FREQUENCY", options.measured,
       "Add how far hunting that was measured at the load, half of its peak to peak and "
       "its frequency or period, is from each motion found: \"0.2 rad, 0.9 Hz\"");
-  add_plot_option(*command, options->plots,
+  add_plot_option(command, options.plots,
                   "Draw phase=FILE, the limit cycles in the phase plane and motions that lead to "
                   "them, time=FILE, such a motion over time, tornado=FILE, the sensitivities of "
                   "the amplitude, or ceiling=FILE, what the proved bound of every motion is made "
                   "of;");
-  command->add_flag(
-      "--margins", options->margins,
+  command.add_flag(
+      "--margins", options.margins,
       "Add how far each parameter may change before hunting ends or begins, and all of "
       "them together; with bounces, or without a closed form, this takes seconds to "
       "minutes");
-  command
-      ->add_option("--parameters NAMES", options->parameters,
-                   "List the parameters of --margins, by path, separated by commas: any number or "
-                   "choice of the drive, searched from 0.1 to 10 times its present value or over "
-                   "PATH=FROM:TO:COUNT[:log]; default those of design, and of drives without a "
-                   "closed form the backlash and the controller's numbers")
-      ->delimiter(',');
-  command->add_flag(
-      "--sensitivities", options->sensitivities,
+  command.add_option("--parameters NAMES", options.parameters,
+                     "List the parameters of --margins, by path, separated by commas: any number "
+                     "or choice of the drive, searched from 0.1 to 10 times its present value or "
+                     "over PATH=FROM:TO:COUNT[:log]; default those of design, and of drives "
+                     "without a closed form the backlash and the controller's numbers",
+                     {.delimiter = ','});
+  command.add_flag(
+      "--sensitivities", options.sensitivities,
       "Add sensitivities to every parameter, in per cent for one per cent; of searched "
       "drives for a continuous controller without encoder");
-  set_action(*command, action, options, help_footer(limit_cycle_examples), run);
 }
 
 }  // namespace gearlash::cli

@@ -4,16 +4,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <functional>
 #include <new>
-#include <string>
-#include <vector>
 
-#include "base/fault.hpp"
-#include "command.hpp"
 #include "gearlash/version.hpp"
-#include "machine_faults.hpp"
-#include "output/output_file.hpp"
+#include "verb.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -67,22 +61,16 @@ ExitStatus parse_and_run(int argument_count, char** arguments) {
   Command app("gearlash", description, std::string("gearlash ") + version);
   Action action;
   app.footer(help_footer(examples));
-  add_limit_cycle_command(app, action);
-  add_simulate_command(app, action);
-  add_design_command(app, action);
-  add_tune_command(app, action);
-  add_tolerance_command(app, action);
-  add_compare_command(app, action);
-  add_describe_command(app, action);
-  add_motor_command(app, action);
-  add_chart_command(app, action);
-  add_map_command(app, action);
-  add_sweep_command(app, action);
-  add_show_command(app, action);
-  add_explore_command(app, action);
-  add_thesis_command(app, action);
-  const auto message =
-      app.parse({arguments + std::min(argument_count, 1), arguments + argument_count});
+  for (AddVerb* add :
+       {add_limit_cycle_command, add_simulate_command, add_design_command, add_tune_command,
+        add_tolerance_command, add_compare_command, add_describe_command, add_motor_command,
+        add_chart_command, add_map_command, add_sweep_command, add_show_command,
+        add_explore_command, add_thesis_command}) {
+    add(app, action);
+  }
+  const std::vector<std::string> words(arguments + std::min(argument_count, 1),
+                                       arguments + argument_count);
+  const auto message = app.parse(words);
   if (message && message->is_fault) {
     report_lines(message->text);
     return ExitStatus::bad_input;
@@ -91,7 +79,7 @@ ExitStatus parse_and_run(int argument_count, char** arguments) {
     write_file("-", message->text);
     return ExitStatus::done;
   }
-  return action({typed_command(argument_count, arguments), version});
+  return action({typed_command(words), version});
 }
 
 ExitStatus guarded(int argument_count, char** arguments) {

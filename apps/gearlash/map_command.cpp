@@ -1,7 +1,4 @@
 // gearlash map: contours over two parameters of the drive, and where hunting ends.
-#include <memory>
-
-#include "command.hpp"
 #include "grid_options.hpp"
 #include "picture/grid_map.hpp"
 
@@ -28,7 +25,7 @@ struct MapOptions {
 
 ExitStatus run(const MapOptions& options, const Provenance& provenance) {
   GridTask task =
-      read_grid_task(options.grid, {{"--y", options.y}, {"--x", options.x}}, "map", {"map"});
+      read_grid_task(options.grid, {{"--y", options.y}, {"--x", options.x}}, "Map", {"map"});
   task.has_boundary = true;
   Faults faults;
   require_an_area(task.grid, {"--y", "--x"}, faults);
@@ -39,24 +36,20 @@ ExitStatus run(const MapOptions& options, const Provenance& provenance) {
 
 }  // namespace
 
-void add_map_command(Command& app, Action& action) {
-  const auto options = std::make_shared<MapOptions>();
-  Command* command = app.add_subcommand(
-      "map", "Draw contours over two parameters of a drive, and where hunting ends");
-  command->add_option("--x AXIS", options->x, axis_help)->required();
-  command->add_option("--y AXIS", options->y, "Set the axis of another parameter")->required();
-  command->add_option("--target TARGET", options->grid.target,
-                      "Shade where the target is met, with its border, and add a column target to "
-                      "tables: no-hunting, \"amplitude <= 1 deg and bandwidth >= 3 Hz\", … as of "
-                      "gearlash design");
-  add_grid_options(*command, options->grid,
+void add_map_command(const Command& app, Action& action) {
+  const auto [command, options] = add_verb<MapOptions>(
+      app, action, "map", "Draw contours over two parameters of a drive, and where hunting ends",
+      backlashes_explanation + help_footer(map_examples), run);
+  command.add_option("--x AXIS", options.x, axis_help, {.is_required = true});
+  command.add_option("--y AXIS", options.y, "Set the axis of another parameter",
+                     {.is_required = true});
+  command.add_option("--target TARGET", options.grid.target,
+                     "Shade where the target is met, with its border, and add a column target to "
+                     "tables: no-hunting, \"amplitude <= 1 deg and bandwidth >= 3 Hz\", … as of "
+                     "gearlash design");
+  add_grid_options(command, options.grid,
                    "Draw map=FILE, contours of the quantity, or its value at each point if drives "
                    "are searched;");
-  set_action(
-      *command, action, options,
-      "Without --backlash, amplitudes are in backlashes, because they are proportional to it.\n\n" +
-          help_footer(map_examples),
-      run);
 }
 
 }  // namespace gearlash::cli

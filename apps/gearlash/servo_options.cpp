@@ -9,13 +9,11 @@
 #include "input/section_reader.hpp"
 #include "input/target_text.hpp"
 #include "input/text_file.hpp"
-#include "input/units.hpp"
-#include "machine_faults.hpp"
 #include "model/parameters.hpp"
-#include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/output_file.hpp"
 #include "question/analyse.hpp"
+#include "verb.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -36,11 +34,25 @@ bool is_ratio(const NormalFormNumber& number) {
   return number.path.starts_with("servo.") && number.path != "servo.backlash";
 }
 
-bool has_ratio(const ServoOptions& options) {
+struct TypedNumber {
+  const NormalFormNumber& number;
+  const std::string& text;
+};
+
+/// The numbers of the normal form that options give.
+std::vector<TypedNumber> typed_numbers(const ServoOptions& options) {
+  std::vector<TypedNumber> typed;
   for (std::size_t i = 0; i < options.numbers.size(); ++i) {
-    if (options.numbers[i] && is_ratio(normal_form_numbers[i])) return true;
+    if (options.numbers[i]) typed.push_back({normal_form_numbers[i], *options.numbers[i]});
   }
-  return false;
+  return typed;
+}
+
+/// As --set would give it. A bare backlash is in radians.
+Setting setting_of(const TypedNumber& typed, bool is_normal_form) {
+  const std::string path(path_of(typed.number, is_normal_form));
+  const bool is_bare = path.ends_with("backlash") && bare_number(typed.text);
+  return {path, typed.text + (is_bare ? " rad" : "")};
 }
 
 std::string permitted_without_file(std::string_view field) {
@@ -65,22 +77,9 @@ Source source_of(const ServoOptions& options) {
   return {"[servo]\n", "the command line", {}};
 }
 
-/// As --set would give it. A bare backlash is in radians.
-void add_setting(std::size_t number, const ServoOptions& options, bool is_normal_form,
-                 std::vector<Setting>& settings) {
-  const std::optional<std::string>& typed = options.numbers[number];
-  if (!typed) return;
-  const std::string path(path_of(normal_form_numbers[number], is_normal_form));
-  const bool is_bare = path.ends_with("backlash") && bare_number(*typed);
-  settings.push_back({path, *typed + (is_bare ? " rad" : "")});
-}
-
-/// Settings from --set and, without a file, from the options of the normal form.
+/// Of --set.
 std::vector<Setting> settings_of(const ServoOptions& options, Faults& faults) {
   std::vector<Setting> settings;
-  for (std::size_t i = 0; i < options.numbers.size() && options.file.empty(); ++i) {
-    add_setting(i, options, true, settings);
-  }
   for (const std::string& text : options.settings) {
     faults.collect([&] { return settings.push_back(read_setting(text)), 0; }, 0);
   }
@@ -89,22 +88,21 @@ std::vector<Setting> settings_of(const ServoOptions& options, Faults& faults) {
 
 }  // namespace
 
-void add_set_option(Command& command, ServoOptions& options) {
-  command
-      .add_option("--set PATH=VALUE", options.settings,
-                  "Set any parameter of the drive by its path, with its unit: "
-                  "gearbox.backlash=\"12 arcmin\"; repeatable; gearlash show lists the paths")
-      ->allow_extra_args(false)
-      ->group(servo_group);
+void add_set_option(const Command& command, ServoOptions& options) {
+  command.add_option("--set PATH=VALUE", options.settings,
+                     "Set any parameter of the drive by its path, with its unit: "
+                     "gearbox.backlash=\"12 arcmin\"; repeatable; gearlash show lists the paths",
+                     {.group = servo_group, .takes_one_word = true});
 }
 
-void add_drive_options(Command& command, ServoOptions& options, const std::string& sensor_help) {
+void add_drive_options(const Command& command, ServoOptions& options,
+                       const std::string& sensor_help) {
   for (std::size_t i = 0; i < options.numbers.size(); ++i) {
     const auto& [help, type] = number_options[i];
     const std::string name = option_name(normal_form_numbers[i].name) + " " + type;
-    command.add_option(name, options.numbers[i], help)->group(servo_group);
+    command.add_option(name, options.numbers[i], help, {.group = servo_group});
   }
-  command.add_option("--sensor SHAFT", options.sensor, sensor_help)->group(servo_group);
+  command.add_option("--sensor SHAFT", options.sensor, sensor_help, {.group = servo_group});
   add_set_option(command, options);
 }
 
@@ -133,14 +131,14 @@ std::string option_name(std::string field) {
   return "--" + field;
 }
 
-void add_servo_options(Command& command, ServoOptions& options) {
+void add_servo_options(const Command& command, ServoOptions& options) {
   command.add_option("DRIVE.toml", options.file,
                      "Read the servo from this file: a data sheet or normalised servo "
                      "(docs/reference/data-sheets.md); - is standard input");
   add_drive_options(command, options, "Set the shaft with the position sensor: load");
 }
 
-void add_servo_or_drive_options(Command& command, ServoOptions& options) {
+void add_servo_or_drive_options(const Command& command, ServoOptions& options) {
   command.add_option(
       "DRIVE.toml", options.file,
       "Read the drive from this file: a data sheet or normalised servo "
@@ -249,16 +247,16 @@ WrittenDrive changed_normal_form(const WrittenDrive& written, const ServoOptions
   WrittenDrive changed{
       .drive = form.value_or(written.drive), .angle = written.angle, .tolerances = {}};
   Faults faults;
-  for (std::size_t i = 0; i < options.numbers.size(); ++i) {
-    const NormalFormNumber& number = normal_form_numbers[i];
-    const std::optional<std::string>& typed = options.numbers[i];
-    if (!typed || !is_ratio(number)) continue;
-    const std::string field = option_name(number.name);
+  for (const TypedNumber& typed : typed_numbers(options)) {
+    if (!is_ratio(typed.number)) continue;
+    const std::string field = option_name(typed.number.name);
+    const auto set_number = [&] {
+      return set(changed.drive, typed.number.path, read_number(field, typed.text)), 0;
+    };
     if (form) {
-      faults.collect([&] { return set(changed.drive, number.path, read_number(field, *typed)), 0; },
-                     0);
+      faults.collect(set_number, 0);
     } else {
-      faults.add({field, shown(*typed),
+      faults.add({field, shown(typed.text),
                   "must be left out: the drive has no normal form with this number", ""});
     }
   }
@@ -269,21 +267,25 @@ WrittenDrive changed_normal_form(const WrittenDrive& written, const ServoOptions
 
 WrittenDrive read_drive_as_typed(const ServoOptions& options, std::vector<Setting> settings) {
   const Source source = source_of(options);
-  if (options.file.empty()) {
-    return parse_drive(source.text, source.name, source.folder, settings);
-  }
   bool is_normal_form = false;
   const auto settings_of_form = [&](bool is_form) {
     is_normal_form = is_form;
-    for (std::size_t i = 0; i < options.numbers.size(); ++i) {
-      if (is_form || !is_ratio(normal_form_numbers[i])) add_setting(i, options, is_form, settings);
+    std::vector<Setting> numbers;
+    for (const TypedNumber& typed : typed_numbers(options)) {
+      if (is_form || !is_ratio(typed.number)) numbers.push_back(setting_of(typed, is_form));
     }
+    // The last one holds: --set changes a servo of options, which change the drive of a file.
+    const auto place = options.file.empty() ? settings.begin() : settings.end();
+    settings.insert(place, numbers.begin(), numbers.end());
     if (options.sensor) settings.push_back({"sensor.position", *options.sensor});
     return settings;
   };
   const WrittenDrive written =
       parse_drive_by_form(source.text, source.name, source.folder, settings_of_form);
-  return is_normal_form || !has_ratio(options) ? written : changed_normal_form(written, options);
+  const std::vector<TypedNumber> typed = typed_numbers(options);
+  const bool has_ratio = std::any_of(typed.begin(), typed.end(),
+                                     [](const TypedNumber& one) { return is_ratio(one.number); });
+  return is_normal_form || !has_ratio ? written : changed_normal_form(written, options);
 }
 
 }  // namespace
@@ -302,16 +304,12 @@ std::uint64_t collect_whole(const char* field, const std::string& text, std::uin
   return faults.collect([&] { return read_whole(field, text, least, most); }, least);
 }
 
-std::vector<Axis> collect_axes(
-    const std::vector<std::string>& texts,
-    const std::function<Axis(const std::string& text, std::string* left_out)>& read,
-    Faults& faults) {
-  std::vector<Axis> axes;
-  for (const std::string& text : texts) {
-    axes.push_back(
-        collect_axis([&](std::string* left_out) { return read(text, left_out); }, faults));
-  }
-  return axes;
+std::vector<Axis> collect_axes(const char* field, const std::vector<std::string>& texts,
+                               const Drive& drive, AxisReader read, Faults& faults) {
+  const auto read_one = [&](const std::string& text, std::string* left_out) {
+    return read(field, text, drive, left_out);
+  };
+  return collect_axes(texts, read_one, faults);
 }
 
 double read_time(const char* field, const std::string& text, Faults& faults) {
@@ -334,12 +332,8 @@ double read_share(const std::string& field, std::string text, Faults& faults) {
 namespace {
 
 std::optional<WrittenDrive> read_drive_or_faults(const ServoOptions& options, Faults& faults) {
-  std::vector<Setting> settings = settings_of(options, faults);
-  if (options.file.empty() && options.sensor) {
-    settings.push_back({"sensor.position", *options.sensor});
-  }
   try {
-    return read_drive_as_typed(options, std::move(settings));
+    return read_drive_as_typed(options, settings_of(options, faults));
   } catch (const InvalidInput& error) {
     faults.add(named_as_typed(error.faults(), options));
     return std::nullopt;

@@ -12,6 +12,7 @@
 #include "command_line.hpp"
 #include "gearlash/design.hpp"
 #include "gearlash/grid.hpp"
+#include "input/axis_text.hpp"
 #include "input/drive_file.hpp"
 #include "input/units.hpp"
 #include "model/proportional_servo.hpp"
@@ -37,10 +38,11 @@ struct ServoOptions {
 std::string option_name(std::string field);
 
 /// Without the file.
-void add_drive_options(Command& command, ServoOptions& options, const std::string& sensor_help);
-void add_servo_options(Command& command, ServoOptions& options);
+void add_drive_options(const Command& command, ServoOptions& options,
+                       const std::string& sensor_help);
+void add_servo_options(const Command& command, ServoOptions& options);
 /// The same for a command that takes any drive.
-void add_servo_or_drive_options(Command& command, ServoOptions& options);
+void add_servo_or_drive_options(const Command& command, ServoOptions& options);
 
 /// A file of a command: its use, such as "--output", and its name.
 struct FileUse {
@@ -49,7 +51,7 @@ struct FileUse {
 };
 
 /// --set PATH=VALUE, repeatable.
-void add_set_option(Command& command, ServoOptions& options);
+void add_set_option(const Command& command, ServoOptions& options);
 
 /// Collects the faults of a command line, so that all of them are reported at once.
 class Faults {
@@ -98,11 +100,20 @@ Target collect_target(const std::string& text, const Drive* drive, Faults& fault
 std::uint64_t collect_whole(const char* field, const std::string& text, std::uint64_t least,
                             std::uint64_t most, Faults& faults);
 
-/// The axes that `read` gives for the texts: see collect_axis().
-std::vector<Axis> collect_axes(
-    const std::vector<std::string>& texts,
-    const std::function<Axis(const std::string& text, std::string* left_out)>& read,
-    Faults& faults);
+/// The axes that `read(text, left_out)` gives for the texts, without those at fault.
+template <class Text, class Read>
+std::vector<Axis> collect_axes(const std::vector<Text>& texts, const Read& read, Faults& faults) {
+  std::vector<Axis> axes;
+  for (const Text& text : texts) {
+    Axis axis = collect_axis([&](std::string* left_out) { return read(text, left_out); }, faults);
+    if (!axis.values.empty()) axes.push_back(std::move(axis));
+  }
+  return axes;
+}
+/// Those of an option that names several: those that `read` (read_axis_or_name() or a like
+/// function) gives.
+std::vector<Axis> collect_axes(const char* field, const std::vector<std::string>& texts,
+                               const Drive& drive, AxisReader read, Faults& faults);
 
 /// A positive time of an option, in s or with its unit; a fault otherwise.
 double read_time(const char* field, const std::string& text, Faults& faults);

@@ -1,10 +1,6 @@
 // gearlash show: the drive with all defaults filled in.
-#include <memory>
-
-#include "command.hpp"
 #include "output/drive_text.hpp"
-#include "output/output_file.hpp"
-#include "servo_options.hpp"
+#include "verb.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -32,14 +28,13 @@ ExitStatus run(const ShowOptions& options, const Provenance& provenance) {
 
 }  // namespace
 
-void add_show_command(Command& app, Action& action) {
-  const auto options = std::make_shared<ShowOptions>();
-  Command* command =
-      app.add_subcommand("show", "Write the drive with all defaults, as a file that reads back");
-  add_servo_or_drive_options(*command, options->servo);
-  command->add_option("--format FORMAT", options->format,
-                      "Choose the format: toml (default) or json");
-  set_action(*command, action, options, help_footer(show_examples), run);
+void add_show_command(const Command& app, Action& action) {
+  const auto [command, options] = add_verb<ShowOptions>(
+      app, action, "show", "Write the drive with all defaults, as a file that reads back",
+      help_footer(show_examples), run);
+  add_servo_or_drive_options(command, options.servo);
+  command.add_option("--format FORMAT", options.format,
+                     "Choose the format: toml (default) or json");
 }
 
 }  // namespace gearlash::cli

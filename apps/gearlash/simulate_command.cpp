@@ -3,23 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <cstring>
 
 #include "base/range_check.hpp"
-#include "command.hpp"
 #include "gearlash/motion.hpp"
 #include "general/attractors/search_setting.hpp"
 #include "input/units.hpp"
-#include "limit_options.hpp"
-#include "machine_faults.hpp"
 #include "output/answer_report.hpp"
 #include "output/motion_report.hpp"
 #include "picture/motion_picture.hpp"
-#include "plot_option.hpp"
 #include "question/analyse.hpp"
 #include "question/motion.hpp"
-#include "servo_options.hpp"
-#include "terminal.hpp"
+#include "verb.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -35,21 +30,46 @@ constexpr double default_samples = 1000.0;
 /// A table this long takes about a gigabyte.
 constexpr double most_samples = 1e7;
 
-struct SimulateOptions {
-  ServoOptions servo;
-  std::string initial_position = "0";
-  std::string initial_speed = "0";
+struct SimulateOptions : QuestionOptions {
+  SimulateOptions() { format = "csv"; }
+
+  std::optional<std::string> initial_position;
+  std::optional<std::string> initial_speed;
   std::optional<std::string> initial_gap;
-  std::string initial_gap_speed = "0";
+  std::optional<std::string> initial_gap_speed;
   std::optional<std::string> reference;
   std::optional<std::string> until;
   std::optional<std::string> every;
   bool events = false;
-  std::string format = "csv";
-  std::vector<std::string> plots;
   std::string output = "-";
-  LimitOptions limits;
 };
+
+/// An option of the motion.
+struct MotionOption {
+  const char* name;  ///< with what the help shows for its value
+  const char* path;  ///< of its faults; empty where simulate() has none
+  std::optional<std::string> SimulateOptions::*typed;
+  const char* help;
+};
+
+constexpr MotionOption motion_options[] = {
+    {"--initial-position ANGLE", "start.load_position", &SimulateOptions::initial_position,
+     "Set the initial position of the load; default 0"},
+    {"--initial-speed SPEED", "start.load_speed", &SimulateOptions::initial_speed,
+     "Set the initial speed of both shafts; default 0; --initial-gap-speed adds to the motor's"},
+    {"--initial-gap ANGLE", "start.gap", &SimulateOptions::initial_gap,
+     "Set the initial position of the motor minus that of the load, within half the backlash each "
+     "way; default on the face that the reference pulls to"},
+    {"--initial-gap-speed SPEED", "start.gap_speed", &SimulateOptions::initial_gap_speed,
+     "Set the initial speed of the motor minus that of the load; default 0"},
+    {"--reference ANGLE", "", &SimulateOptions::reference,
+     "Set a constant reference; default the file's reference, else a step of five backlashes, at "
+     "least twenty encoder counts and three times the error that friction holds"},
+    {"--until TIME", "until", &SimulateOptions::until,
+     "Set the end time; default 10 periods of the loop plus twice the settling time of the "
+     "signals; pictures go on for eight periods of slow hunting"},
+    {"--every TIME", "", &SimulateOptions::every,
+     "Set the time between samples; default a thousandth of --until"}};
 
 /// The task, in SI.
 struct SimulateRequest {
@@ -61,17 +81,18 @@ struct SimulateRequest {
 };
 
 Start read_start(const SimulateOptions& options, Faults& faults) {
-  const auto angle = [&](const char* field, const std::string& text) {
-    return faults.collect([&] { return read_angle(field, text).si; }, 0.0);
+  const auto angle = [&](const char* field, const std::optional<std::string>& text) {
+    return faults.collect([&] { return text ? read_angle(field, *text).si : 0.0; }, 0.0);
   };
-  const auto speed = [&](const char* field, const std::string& text) {
-    return faults.collect([&] { return read_si(field, text, dimensions::angular_speed); }, 0.0);
+  const auto speed = [&](const char* field, const std::optional<std::string>& text) {
+    const auto read = [&] { return text ? read_si(field, *text, dimensions::angular_speed) : 0.0; };
+    return faults.collect(read, 0.0);
   };
   Start start{.load_position = angle("--initial-position", options.initial_position),
               .load_speed = speed("--initial-speed", options.initial_speed),
               .gap = std::nullopt,
               .gap_speed = speed("--initial-gap-speed", options.initial_gap_speed)};
-  if (options.initial_gap) start.gap = angle("--initial-gap", *options.initial_gap);
+  if (options.initial_gap) start.gap = angle("--initial-gap", options.initial_gap);
   return start;
 }
 
@@ -84,13 +105,11 @@ double default_reference(const drive::ReducedDrive& reduced) {
 }
 
 /// From --reference, else from the file, else a step. Its unit is used if the file has radians.
-void set_reference(const SimulateOptions& options, WrittenDrive& written, Faults& faults) {
-  if (options.reference) {
-    const Measured angle =
-        faults.collect([&] { return read_angle("--reference", *options.reference); }, Measured{});
-    written.drive.reference = angle.si;
+void set_reference(const std::optional<Measured>& typed, WrittenDrive& written) {
+  if (typed) {
+    written.drive.reference = typed->si;
     if (written.angle == AngleUnit{}) {
-      written.angle = {.name = angle.unit, .radians = angle.unit_in_si};
+      written.angle = {.name = typed->unit, .radians = typed->unit_in_si};
     }
   } else if (!written.drive.reference) {
     written.drive.reference = default_reference(reduce(written.drive));
@@ -127,17 +146,18 @@ void read_times(const SimulateOptions& options, const Drive* drive, SimulateRequ
 SimulateRequest read_task(const SimulateOptions& options, const std::vector<FileUse>& outputs,
                           Faults& faults) {
   SimulateRequest task;
-  std::optional<WrittenDrive> written = resolve_drive(options.servo, outputs, faults);
+  const std::optional<WrittenDrive> written = resolve_drive(options.servo, outputs, faults);
   task.start = read_start(options, faults);
-  if (written) {
-    set_reference(options, *written, faults);
-    task.written = *std::move(written);
-    read_times(options, &task.written.drive, task, faults);
-  } else {
-    if (options.reference)
-      faults.collect([&] { return read_angle("--reference", *options.reference); }, Measured{});
-    read_times(options, nullptr, task, faults);
+  std::optional<Measured> reference;
+  if (options.reference) {
+    reference =
+        faults.collect([&] { return read_angle("--reference", *options.reference); }, Measured{});
   }
+  if (written) {
+    task.written = *written;
+    set_reference(reference, task.written);
+  }
+  read_times(options, written ? &task.written.drive : nullptr, task, faults);
   faults.require_none();
   return task;
 }
@@ -145,22 +165,16 @@ SimulateRequest read_task(const SimulateOptions& options, const std::vector<File
 /// Reports faults of the span under the options that were typed.
 Motion simulated(const SimulateRequest& task, const SimulateOptions& options, LimitedWork& work) {
   try {
-    TerminalProgress progress(work, "Simulating");
-    return simulate(task.written.drive, {.until = task.until, .start = task.start}, progress);
+    return simulate(task.written.drive, {.until = task.until, .start = task.start},
+                    TerminalProgress(work, "Simulating").as_argument());
   } catch (const InvalidInput& error) {
     std::vector<Fault> faults = error.faults();
-    const auto name = [](Fault& fault, const char* path, const char* option,
-                         const std::string& typed) {
-      if (fault.path != path) return;
-      fault.path = option;
-      fault.value = shown(typed);
-    };
     for (Fault& fault : faults) {
-      name(fault, "until", "--until", options.until.value_or(fault.value));
-      name(fault, "start.gap", "--initial-gap", options.initial_gap.value_or(fault.value));
-      name(fault, "start.load_position", "--initial-position", options.initial_position);
-      name(fault, "start.load_speed", "--initial-speed", options.initial_speed);
-      name(fault, "start.gap_speed", "--initial-gap-speed", options.initial_gap_speed);
+      for (const MotionOption& option : motion_options) {
+        if (fault.path != option.path) continue;
+        fault.path = std::string(option.name, std::strchr(option.name, ' '));
+        fault.value = shown((options.*option.typed).value_or(fault.value));
+      }
     }
     throw InvalidInput(faults);
   }
@@ -187,8 +201,8 @@ struct KnownHunting {
 };
 
 KnownHunting hunting_of(const WrittenDrive& written, LimitedWork& work) {
-  TerminalProgress progress(work, "Searching");
-  const Answer answer = analyse(written.drive, {.proofs = false}, progress);
+  const Answer answer =
+      analyse(written.drive, {.proofs = false}, TerminalProgress(work, "Searching").as_argument());
   KnownHunting known;
   known.headline = headline(report_of(written.drive, answer, written.angle, {}));
   if (const Cycle* cycle = answer.largest_stable()) {
@@ -209,8 +223,8 @@ Motion motion_to_draw(const SimulateRequest& task, const Motion& motion,
   if (options.until || motion.stop() != MotionStop::reached_end || shows || until > longest) {
     return motion;
   }
-  TerminalProgress progress(work, "Simulating");
-  Motion longer = simulate(task.written.drive, {.until = until, .start = task.start}, progress);
+  Motion longer = simulate(task.written.drive, {.until = until, .start = task.start},
+                           TerminalProgress(work, "Simulating").as_argument());
   const bool is_drawn =
       longer.stop() != MotionStop::stopped && longer.events().size() <= most_events_drawn;
   return is_drawn ? longer : motion;
@@ -283,52 +297,28 @@ ExitStatus run(const SimulateOptions& options, const Provenance& provenance) {
   return extras.status(status);
 }
 
-void add_start_options(Command& command, SimulateOptions& options) {
-  constexpr char group[] = "Motion (in rad, s and rad/s, or with a unit: \"50 ms\", \"3 rpm\")";
-  const auto add = [&](const char* name, auto& typed, const char* help) {
-    command.add_option(name, typed, help)->group(group);
-  };
-  add("--initial-position ANGLE", options.initial_position,
-      "Set the initial position of the load; default 0");
-  add("--initial-speed SPEED", options.initial_speed,
-      "Set the initial speed of both shafts; default 0; --initial-gap-speed adds to "
-      "the motor's");
-  add("--initial-gap ANGLE", options.initial_gap,
-      "Set the initial position of the motor minus that of the load, within half the "
-      "backlash each way; default on the face that the reference pulls to");
-  add("--initial-gap-speed SPEED", options.initial_gap_speed,
-      "Set the initial speed of the motor minus that of the load; default 0");
-  add("--reference ANGLE", options.reference,
-      "Set a constant reference; default the file's reference, else a step of five "
-      "backlashes, at least twenty encoder counts and three times the error that "
-      "friction holds");
-  add("--until TIME", options.until,
-      "Set the end time; default 10 periods of the loop plus twice the settling time "
-      "of the signals; pictures go on for eight periods of slow hunting");
-  add("--every TIME", options.every,
-      "Set the time between samples; default a thousandth of --until");
-}
-
 }  // namespace
 
-void add_simulate_command(Command& app, Action& action) {
-  const auto options = std::make_shared<SimulateOptions>();
-  Command* command =
-      app.add_subcommand("simulate", "Compute the exact motion after a step or a disturbance");
-  add_servo_or_drive_options(*command, options->servo);
-  add_start_options(*command, *options);
-  command->add_flag(
-      "--events", options->events,
+void add_simulate_command(const Command& app, Action& action) {
+  const auto [command, options] = add_verb<SimulateOptions>(
+      app, action, "simulate", "Compute the exact motion after a step or a disturbance",
+      help_footer(simulate_examples), run);
+  add_servo_or_drive_options(command, options.servo);
+  const OptionRules rules{.group =
+                              "Motion (in rad, s and rad/s, or with a unit: \"50 ms\", \"3 rpm\")"};
+  for (const MotionOption& option : motion_options) {
+    command.add_option(option.name, options.*option.typed, option.help, rules);
+  }
+  command.add_flag(
+      "--events", options.events,
       "List events (faces meet, part; shafts stick) instead of samples; JSON has both");
-  command->add_option("--format FORMAT", options->format,
-                      "Choose the format: csv (default) or json");
-  add_plot_option(*command, options->plots,
+  command.add_option("--format FORMAT", options.format, "Choose the format: csv (default) or json");
+  add_plot_option(command, options.plots,
                   "Draw time=FILE, the response, the gap and the torque, or phase=FILE, the phase "
                   "plane;");
-  command->add_option("--output FILE", options->output,
-                      "Write the table to this file; default standard output");
-  add_limit_options(*command, options->limits);
-  set_action(*command, action, options, help_footer(simulate_examples), run);
+  command.add_option("--output FILE", options.output,
+                     "Write the table to this file; default standard output");
+  add_limit_options(command, options.limits);
 }
 
 }  // namespace gearlash::cli

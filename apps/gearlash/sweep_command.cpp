@@ -1,23 +1,13 @@
 // gearlash sweep: a drive over up to six parameters into a NetCDF file, in little memory.
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <filesystem>
-#include <memory>
-#include <optional>
-#include <vector>
 
-#include "command.hpp"
 #include "grid_options.hpp"
 #include "input/sweep_file.hpp"
 #include "input/units.hpp"
-#include "limit_options.hpp"
-#include "machine_faults.hpp"
-#include "output/output_file.hpp"
-#include "servo_options.hpp"
-#include "sweep_part.hpp"
 #include "sweep_run.hpp"
-#include "terminal.hpp"
+#include "verb.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -53,11 +43,7 @@ void require_netcdf(const std::string& output, Faults& faults) {
 
 /// The command without --resume, so that a resumed sweep writes the same file.
 Provenance provenance_of(const SweepOptions& options, const Provenance& typed) {
-  const std::vector<std::string> words = {"gearlash", "sweep", options.file, "--output",
-                                          options.output};
-  std::vector<const char*> arguments;
-  for (const std::string& word : words) arguments.push_back(word.c_str());
-  return {typed_command(static_cast<int>(arguments.size()), arguments.data()), typed.version};
+  return {typed_command({"sweep", options.file, "--output", options.output}), typed.version};
 }
 
 void report_stop(std::size_t done, std::size_t points, const std::string& output) {
@@ -86,12 +72,10 @@ ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
 
   for (const std::string& line : sweep.left_out) report_lines(line);
   LimitedWork work(limits);
-  std::optional<TerminalProgress> progress;
-  progress.emplace(work, "Sweep", sweep.grid.size(), "points");
   const RowCount done =
       run_sweep(sweep, provenance_of(options, provenance), options.output,
-                options.resume ? SweepStart::resume : SweepStart::anew, *progress);
-  progress.reset();  // wiped before anything is printed
+                options.resume ? SweepStart::resume : SweepStart::anew,
+                TerminalProgress(work, "Sweep", sweep.grid.size(), "points").as_argument());
   if (done.points() < sweep.grid.size()) {
     report_stop(done.points(), sweep.grid.size(), options.output);
     work.end();
@@ -103,17 +87,16 @@ ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
 
 }  // namespace
 
-void add_sweep_command(Command& app, Action& action) {
-  const auto options = std::make_shared<SweepOptions>();
-  Command* command =
-      app.add_subcommand("sweep", "Analyse a drive over up to six parameters, into a NetCDF file");
-  command->add_option("SWEEP.toml", options->file, "Read the axes and the drive from this file")
-      ->required();
-  command->add_option("--output FILE", options->output, "Write this NetCDF-4 file (.nc)")
-      ->required();
-  command->add_flag("--resume", options->resume, "Continue a sweep that was stopped or killed");
-  add_limit_options(*command, options->limits);
-  set_action(*command, action, options, sweep_explanation + help_footer(sweep_examples), run);
+void add_sweep_command(const Command& app, Action& action) {
+  const auto [command, options] = add_verb<SweepOptions>(
+      app, action, "sweep", "Analyse a drive over up to six parameters, into a NetCDF file",
+      sweep_explanation + help_footer(sweep_examples), run);
+  command.add_option("SWEEP.toml", options.file, "Read the axes and the drive from this file",
+                     {.is_required = true});
+  command.add_option("--output FILE", options.output, "Write this NetCDF-4 file (.nc)",
+                     {.is_required = true});
+  command.add_flag("--resume", options.resume, "Continue a sweep that was stopped or killed");
+  add_limit_options(command, options.limits);
 }
 
 }  // namespace gearlash::cli

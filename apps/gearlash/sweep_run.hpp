@@ -1,6 +1,7 @@
 // Sweeps into a NetCDF file, in little memory, that can be stopped and resumed.
 #pragma once
 
+#include <array>
 #include <filesystem>
 
 #include "input/sweep_file.hpp"
@@ -8,6 +9,9 @@
 #include "question/family/evaluation.hpp"
 
 namespace gearlash {
+
+/// OUTPUT.part and OUTPUT.part.json, beside the file that a symbolic link leads to.
+std::array<std::filesystem::path, 2> unfinished_files(const std::filesystem::path& output);
 
 enum class SweepStart : bool {
   anew,   ///< an unfinished sweep into the same file is an InvalidInput

@@ -3,19 +3,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
-#include <memory>
-#include <optional>
 
 #include "base/progress_part.hpp"
 #include "input/section_reader.hpp"
-#include "limit_options.hpp"
-#include "machine_faults.hpp"
 #include "output/columns.hpp"
-#include "output/output_file.hpp"
-#include "picture/gnuplot_renderer.hpp"
-#include "servo_options.hpp"
-#include "terminal.hpp"
 #include "thesis/chart_reading.hpp"
 #include "thesis/exact_curve.hpp"
 #include "thesis/extensions.hpp"
@@ -109,138 +100,140 @@ constexpr char extension_examples[] =
     "  gearlash thesis extension 2\n"
     "  gearlash thesis extension 4 --output restitution.pdf\n";
 
+// --- the verbs ---
+
+/// The picture of --output, else of that name.
+PlotFile read_output(const std::string& typed, const std::string& otherwise, Faults& faults) {
+  PlotFile file = read_picture("--output", typed.empty() ? otherwise : typed, faults);
+  faults.require_writable({{"--output", file.file}});
+  return file;
+}
+
+struct FigureOptions {
+  std::string number;
+  std::string output;
+};
+
+ExitStatus draw_figure(const FigureOptions& typed, const Provenance&) {
+  Faults faults;
+  const int number = faults.collect([&] { return read_figure_number(typed.number); }, 2);
+  const PlotFile file = read_output(typed.output, fmt::format("figure-{}.svg", number), faults);
+  faults.require_none();
+  write_plot(file, figure_plot(number));
+  return ExitStatus::done;
+}
+
+struct FolderOptions {
+  std::string folder = "thesis-figures";
+  LimitOptions limits;
+};
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!error) return;
+  throw InvalidInput(
+      {{"--output", shown(folder.string()),
+        "must be a folder that exists or can be made (" + error.message() + ")", ""}});
+}
+
+ExitStatus draw_all(const FolderOptions& typed, const Provenance&) {
+  Faults faults;
+  const Limits limits = read_limits(typed.limits, faults);
+  faults.require_none();
+  const std::filesystem::path folder = typed.folder;
+  make_folder(folder);
+  const std::vector<int> numbers = figure_numbers();
+  const auto file = [&](std::size_t i) {
+    return (folder / fmt::format("figure-{}.svg", numbers[i])).string();
+  };
+  faults.require_writable({{"--output", file(0)}});
+  faults.require_none();
+  LimitedWork work(limits);
+  TerminalProgress progress(work, "Figures");
+  std::size_t drawn = 0;
+  while (drawn < numbers.size()) {
+    ProgressPart part(progress, drawn, numbers.size());
+    const Plot plot = figure_plot(numbers[drawn], part);
+    if (!work.go_on()) break;
+    write_plot({.file = file(drawn++)}, plot);
+  }
+  return end_work(work, ExitStatus::done,
+                  fmt::format("{} of {} figures are drawn", drawn, numbers.size()));
+}
+
+ExitStatus read_charts(const ServoOptions& typed, const Provenance&) {
+  Faults faults;
+  const std::optional<WrittenDrive> written = resolve_charted_drive(typed, faults);
+  faults.require_none();
+  const NormalizedServo servo = servo_of_1960(*written, typed).servo;
+  write_file("-", chart_reading_text(servo, thesis::read_chart(servo)));
+  return ExitStatus::done;
+}
+
+struct ExtensionOptions {
+  std::string number;
+  std::string output;
+  LimitOptions limits;
+};
+
+ExitStatus draw_extension(const ExtensionOptions& typed, const Provenance&) {
+  Faults faults;
+  if (typed.number != "2" && typed.number != "3" && typed.number != "4") {
+    faults.add({"N", shown(typed.number),
+                "must be 2, 3 or 4 (recommendation 1 is gearlash thesis run)", ""});
+  }
+  const PlotFile file = read_output(typed.output, "extension-" + typed.number + ".svg", faults);
+  const Limits limits = read_limits(typed.limits, faults);
+  faults.require_none();
+  LimitedWork work(limits);
+  const thesis::Extension extension = thesis::extension(
+      std::stoi(typed.number), TerminalProgress(work, "Extension " + typed.number).as_argument());
+  std::vector<PlotFile> pictures;
+  if (!work.is_stopped()) pictures.push_back(file);
+  return give({.text = wrapped(fmt::format("{}. {}", extension.number, extension.wish)) + "\n" +
+                       wrapped(extension.lesson),
+               .unknown = "the chart is not drawn"},
+              work, pictures, [&](const PlotFile&) { return extension.plot; });
+}
+
 }  // namespace
 
-void add_thesis_figure(Command& thesis, Action& action) {
-  struct Options {
-    std::string number;
-    std::string output;
-  };
-  const auto options = std::make_shared<Options>();
-  Command* command = thesis.add_subcommand(
-      "figure", "Draw one of figures 2 to 15: the program's points, the exact curves");
-  command->add_option("N", options->number, "Choose the figure: 2 to 15")->required();
-  command->add_option("--output FILE", options->output,
-                      "Write this picture, .svg, .png or .pdf; default figure-N.svg");
-  set_action(
-      *command, action, options, help_footer(figure_examples), [](auto& typed, const Provenance&) {
-        Faults faults;
-        const int number = faults.collect([&] { return read_figure_number(typed.number); }, 2);
-        const std::string file =
-            typed.output.empty() ? fmt::format("figure-{}.svg", number) : typed.output;
-        const PictureFormat format =
-            faults.collect([&] { return picture_format("--output", file); }, PictureFormat::svg);
-        faults.require_writable({{"--output", file}});
-        faults.require_none();
-        write_file(file, draw(figure_plot(number), format));
-        return ExitStatus::done;
-      });
+void add_thesis_figure(const Command& thesis, Action& action) {
+  const auto [command, options] =
+      add_verb<FigureOptions>(thesis, action, "figure",
+                              "Draw one of figures 2 to 15: the program's points, the exact curves",
+                              help_footer(figure_examples), draw_figure);
+  command.add_option("N", options.number, "Choose the figure: 2 to 15", {.is_required = true});
+  command.add_option("--output FILE", options.output,
+                     "Write this picture, .svg, .png or .pdf; default figure-N.svg");
 }
 
-void add_thesis_all(Command& thesis, Action& action) {
-  struct Options {
-    std::string folder = "thesis-figures";
-    LimitOptions limits;
-  };
-  const auto options = std::make_shared<Options>();
-  Command* command = thesis.add_subcommand("all", "Draw all figures into a folder, as SVG");
-  command->add_option("--output DIR", options->folder,
-                      "Write into this folder, and make it if missing; default thesis-figures");
-  add_limit_options(*command, options->limits);
-  set_action(
-      *command, action, options, help_footer(figure_examples),
-      [](const Options& typed, const Provenance&) {
-        Faults faults;
-        const Limits limits = read_limits(typed.limits, faults);
-        faults.require_none();
-        const std::filesystem::path folder = typed.folder;
-        std::error_code error;
-        std::filesystem::create_directories(folder, error);
-        if (error) {
-          throw InvalidInput(
-              {{"--output", shown(typed.folder),
-                "must be a folder that exists or can be made (" + error.message() + ")", ""}});
-        }
-        const std::vector<int> numbers = figure_numbers();
-        const auto file = [&](std::size_t i) {
-          return (folder / fmt::format("figure-{}.svg", numbers[i])).string();
-        };
-        faults.require_writable({{"--output", file(0)}});
-        faults.require_none();
-        LimitedWork work(limits);
-        TerminalProgress progress(work, "Figures");
-        std::size_t drawn = 0;
-        while (drawn < numbers.size()) {
-          ProgressPart part(progress, drawn, numbers.size());
-          const Plot plot = figure_plot(numbers[drawn], part);
-          if (!work.go_on()) break;
-          write_file(file(drawn++), draw(plot, PictureFormat::svg));
-        }
-        return end_work(work, ExitStatus::done,
-                        fmt::format("{} of {} figures are drawn", drawn, numbers.size()));
-      });
+void add_thesis_all(const Command& thesis, Action& action) {
+  const auto [command, options] =
+      add_verb<FolderOptions>(thesis, action, "all", "Draw all figures into a folder, as SVG",
+                              help_footer(figure_examples), draw_all);
+  command.add_option("--output DIR", options.folder,
+                     "Write into this folder, and make it if missing; default thesis-figures");
+  add_limit_options(command, options.limits);
 }
 
-void add_thesis_chart_reading(Command& thesis, Action& action) {
-  const auto options = std::make_shared<ServoOptions>();
-  Command* command = thesis.add_subcommand(
-      "chart-reading", "Read the amplitude off the charts, beside the exact one");
-  add_servo_options(*command, *options);
-  set_action(*command, action, options, help_footer(chart_reading_examples),
-             [](const ServoOptions& given, const Provenance&) {
-               ServoOptions typed = given;
-               if (typed.file.empty() && !typed.backlash()) typed.backlash() = "0.3";
-               Faults faults;
-               const std::optional<WrittenDrive> written = resolve_drive(typed, {}, faults);
-               faults.require_none();
-               const NormalizedServo servo = servo_of_1960(*written, typed).servo;
-               write_file("-", chart_reading_text(servo, thesis::read_chart(servo)));
-               return ExitStatus::done;
-             });
+void add_thesis_chart_reading(const Command& thesis, Action& action) {
+  const auto [command, options] = add_verb<ServoOptions>(
+      thesis, action, "chart-reading", "Read the amplitude off the charts, beside the exact one",
+      help_footer(chart_reading_examples), read_charts);
+  add_servo_options(command, options);
 }
 
-void add_thesis_extension(Command& thesis, Action& action) {
-  struct Options {
-    std::string number;
-    std::string output;
-    LimitOptions limits;
-  };
-  const auto options = std::make_shared<Options>();
-  Command* command = thesis.add_subcommand(
-      "extension", "Draw the chart of recommendation 2, 3 or 4 of the thesis");
-  command->add_option("N", options->number, "Choose the recommendation: 2, 3 or 4")->required();
-  command->add_option("--output FILE", options->output,
-                      "Write this picture, .svg, .png or .pdf; default extension-N.svg");
-  add_limit_options(*command, options->limits);
-  set_action(*command, action, options, help_footer(extension_examples),
-             [](auto& typed, const Provenance&) {
-               Faults faults;
-               if (typed.number != "2" && typed.number != "3" && typed.number != "4") {
-                 faults.add({"N", shown(typed.number),
-                             "must be 2, 3 or 4 (recommendation 1 is gearlash thesis run)", ""});
-               }
-               const std::string file =
-                   typed.output.empty() ? "extension-" + typed.number + ".svg" : typed.output;
-               const PictureFormat format = faults.collect(
-                   [&] { return picture_format("--output", file); }, PictureFormat::svg);
-               faults.require_writable({{"--output", file}});
-               const Limits limits = read_limits(typed.limits, faults);
-               faults.require_none();
-               LimitedWork work(limits);
-               std::optional<TerminalProgress> progress;
-               progress.emplace(work, "Extension " + typed.number);
-               const thesis::Extension extension =
-                   thesis::extension(std::stoi(typed.number), *progress);
-               progress.reset();  // wiped before anything is printed
-               Extras extras;
-               extras.print(wrapped(fmt::format("{}. {}", extension.number, extension.wish)) +
-                            "\n" + wrapped(extension.lesson));
-               const ExitStatus status = end_work(work, ExitStatus::done, "the chart is not drawn");
-               if (!work.is_stopped()) {
-                 extras.make([&] { write_file(file, draw(extension.plot, format)); });
-               }
-               return extras.status(status);
-             });
+void add_thesis_extension(const Command& thesis, Action& action) {
+  const auto [command, options] = add_verb<ExtensionOptions>(
+      thesis, action, "extension", "Draw the chart of recommendation 2, 3 or 4 of the thesis",
+      help_footer(extension_examples), draw_extension);
+  command.add_option("N", options.number, "Choose the recommendation: 2, 3 or 4",
+                     {.is_required = true});
+  command.add_option("--output FILE", options.output,
+                     "Write this picture, .svg, .png or .pdf; default extension-N.svg");
+  add_limit_options(command, options.limits);
 }
 
 }  // namespace gearlash::cli

@@ -11,18 +11,20 @@ constexpr char thesis_examples[] =
 
 }  // namespace
 
-void add_thesis_command(Command& app, Action& action) {
-  Command* thesis = app.add_subcommand(
+std::optional<WrittenDrive> resolve_charted_drive(ServoOptions typed, Faults& faults) {
+  if (typed.file.empty() && !typed.backlash()) typed.backlash() = "0.3";
+  return resolve_drive(typed, {}, faults);
+}
+
+void add_thesis_command(const Command& app, Action& action) {
+  const Command thesis = app.add_subcommand(
       "thesis", "Run the program of 1960 and draw its charts, beside the exact answer");
-  thesis->require_subcommand();
-  thesis->footer(help_footer(thesis_examples));
-  add_thesis_table_2(*thesis, action);
-  add_thesis_machine(*thesis, action);
-  add_thesis_run(*thesis, action);
-  add_thesis_figure(*thesis, action);
-  add_thesis_chart_reading(*thesis, action);
-  add_thesis_extension(*thesis, action);
-  add_thesis_all(*thesis, action);
+  thesis.require_subcommand();
+  thesis.footer(help_footer(thesis_examples));
+  for (AddVerb* add : {add_thesis_table_2, add_thesis_machine, add_thesis_run, add_thesis_figure,
+                       add_thesis_chart_reading, add_thesis_extension, add_thesis_all}) {
+    add(thesis, action);
+  }
 }
 
 }  // namespace gearlash::cli

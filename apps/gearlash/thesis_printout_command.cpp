@@ -1,12 +1,6 @@
 // gearlash thesis table-2 and machine: the printout of 1960, by the port and by the CDC 1604.
 #include <fmt/format.h>
 
-#include <charconv>
-#include <memory>
-#include <optional>
-
-#include "output/output_file.hpp"
-#include "servo_options.hpp"
 #include "thesis/float_1604.hpp"
 #include "thesis/listing.hpp"
 #include "thesis/mendings.hpp"
@@ -29,6 +23,11 @@ constexpr char table_2_examples[] =
     "  gearlash thesis table-2\n"
     "  gearlash thesis table-2 --arithmetic 1604\n"
     "  gearlash thesis table-2 --properties\n";
+
+struct Table2Options {
+  std::string arithmetic = "double";
+  bool properties = false;
+};
 
 std::vector<PrintedLine> run_listed_program(const std::string& arithmetic) {
   const std::size_t lines = thesis::thesis_table_2().size();
@@ -169,63 +168,54 @@ std::string machine_text() {
          fmt::format("{} instructions were executed.\n", thesis.machine().registers().executed);
 }
 
+ExitStatus print_table_2(const Table2Options& typed, const Provenance&) {
+  Faults faults;
+  faults.require_choice("--arithmetic", typed.arithmetic, {"double", "1604"});
+  faults.require_none();
+  write_file("-", typed.properties
+                      ? properties_text()
+                      : "Table II: the program of 1960 run again, beside its printout\n\n" +
+                            beside_table_2(run_listed_program(typed.arithmetic)));
+  return ExitStatus::done;
+}
+
+ExitStatus print_of_machine(const MachineOptions& typed, const Provenance&) {
+  write_file("-", typed.trace     ? trace_text(read_whole("--trace", *typed.trace, 1, 1'000'000))
+                  : typed.rules   ? rules_text()
+                  : typed.listing ? listing_text()
+                                  : machine_text());
+  return ExitStatus::done;
+}
+
 }  // namespace
 
-void add_thesis_table_2(Command& thesis, Action& action) {
-  struct Options {
-    std::string arithmetic = "double";
-    bool properties = false;
-  };
-  const auto options = std::make_shared<Options>();
-  Command* command =
-      thesis.add_subcommand("table-2", "Print Table II again, beside the printout of 1960");
-  Option* arithmetic = command->add_option(
-      "--arithmetic KIND", options->arithmetic,
+void add_thesis_table_2(const Command& thesis, Action& action) {
+  const auto [command, options] = add_verb<Table2Options>(
+      thesis, action, "table-2", "Print Table II again, beside the printout of 1960",
+      help_footer(table_2_examples), print_table_2);
+  const Option arithmetic = command.add_option(
+      "--arithmetic KIND", options.arithmetic,
       "Choose the arithmetic: double (default) or 1604, which cuts operands off before "
       "it adds them");
   command
-      ->add_flag("--properties", options->properties,
-                 "Show how many of its numbers each property of the program accounts for")
-      ->excludes(arithmetic);
-  set_action(*command, action, options, help_footer(table_2_examples),
-             [](auto& typed, const Provenance&) {
-               Faults faults;
-               faults.require_choice("--arithmetic", typed.arithmetic, {"double", "1604"});
-               faults.require_none();
-               if (typed.properties) {
-                 write_file("-", properties_text());
-                 return ExitStatus::done;
-               }
-               write_file("-", "Table II: the program of 1960 run again, beside its printout\n\n" +
-                                   beside_table_2(run_listed_program(typed.arithmetic)));
-               return ExitStatus::done;
-             });
+      .add_flag("--properties", options.properties,
+                "Show how many of its numbers each property of the program accounts for")
+      .excludes(arithmetic);
 }
 
-void add_thesis_machine(Command& thesis, Action& action) {
-  const auto options = std::make_shared<MachineOptions>();
-  Command* command =
-      thesis.add_subcommand("machine", "Run the octal words of Table I on an emulated CDC 1604");
-  Option* trace = command->add_option("--trace COUNT", options->trace,
-                                      "Show the first COUNT instructions instead");
-  Option* rules = command->add_flag("--rules", options->rules,
-                                    "Show which rounding rules reproduce the digits of 1960");
-  Option* listing = command->add_flag("--listing", options->listing,
-                                      "Show where the listing's symbolic and octal columns differ");
-  rules->excludes(trace);
-  listing->excludes(trace);
-  listing->excludes(rules);
-  set_action(*command, action, options, help_footer(machine_examples),
-             [](auto& typed, const Provenance&) {
-               if (typed.trace) {
-                 write_file("-", trace_text(read_whole("--trace", *typed.trace, 1, 1'000'000)));
-               } else if (typed.rules) {
-                 write_file("-", rules_text());
-               } else {
-                 write_file("-", typed.listing ? listing_text() : machine_text());
-               }
-               return ExitStatus::done;
-             });
+void add_thesis_machine(const Command& thesis, Action& action) {
+  const auto [command, options] = add_verb<MachineOptions>(
+      thesis, action, "machine", "Run the octal words of Table I on an emulated CDC 1604",
+      help_footer(machine_examples), print_of_machine);
+  const Option trace = command.add_option("--trace COUNT", options.trace,
+                                          "Show the first COUNT instructions instead");
+  const Option rules = command.add_flag("--rules", options.rules,
+                                        "Show which rounding rules reproduce the digits of 1960");
+  const Option listing = command.add_flag(
+      "--listing", options.listing, "Show where the listing's symbolic and octal columns differ");
+  rules.excludes(trace);
+  listing.excludes(trace);
+  listing.excludes(rules);
 }
 
 }  // namespace gearlash::cli

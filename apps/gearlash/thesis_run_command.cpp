@@ -4,14 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <memory>
 
-#include "limit_options.hpp"
-#include "machine_faults.hpp"
-#include "output/output_file.hpp"
-#include "plot_option.hpp"
-#include "servo_options.hpp"
-#include "terminal.hpp"
 #include "thesis/chart_errors.hpp"
 #include "thesis/exact_curve.hpp"
 #include "thesis/mendings.hpp"
@@ -187,15 +180,10 @@ ExitStatus run_charts(const RunOptions& options) {
   faults.require_none();
   LimitedWork work(limits);
   const AllRuns runs = run_all(options.machine, work);
-  Extras extras;
-  extras.print(errors_text(runs.errors) + runs.effort);
-  const ExitStatus status = end_work(
-      work, ExitStatus::done,
-      fmt::format("{} of {} servos are run", runs.errors.size(), thesis::charted_servos().size()));
-  for (const PlotFile& plot : plots) {
-    extras.make([&] { write_plot(plot, thesis::error_plot(runs.errors)); });
-  }
-  return extras.status(status);
+  return give({.text = errors_text(runs.errors) + runs.effort,
+               .unknown = fmt::format("{} of {} servos are run", runs.errors.size(),
+                                      thesis::charted_servos().size())},
+              work, plots, [&](const PlotFile&) { return thesis::error_plot(runs.errors); });
 }
 
 ExitStatus run_program(const RunOptions& options, const Provenance&) {
@@ -204,14 +192,12 @@ ExitStatus run_program(const RunOptions& options, const Provenance&) {
     write_file("-", causes_text());
     return ExitStatus::done;
   }
-  ServoOptions typed = options.servo;
-  if (typed.file.empty() && !typed.backlash()) typed.backlash() = "0.3";  // of the charts
   Faults faults;
-  const std::optional<WrittenDrive> written = resolve_drive(typed, {}, faults);
+  const std::optional<WrittenDrive> written = resolve_charted_drive(options.servo, faults);
   const Limits limits = read_limits(options.limits, faults);
   faults.require_none();
+  const NormalizedServo servo = servo_of_1960(*written, options.servo).servo;
   LimitedWork work(limits);
-  const NormalizedServo servo = servo_of_1960(*written, typed).servo;
   const auto parameters = thesis::program_parameters(servo);
   const thesis::SettledCycle cycle = settled(parameters, options.machine, work);
   write_file("-", run_text(servo, cycle));
@@ -221,29 +207,29 @@ ExitStatus run_program(const RunOptions& options, const Provenance&) {
 
 }  // namespace
 
-void add_thesis_run(Command& thesis, Action& action) {
-  const auto options = std::make_shared<RunOptions>();
-  Command* command = thesis.add_subcommand(
-      "run", "Find the amplitude of any servo by the program of 1960, beside the exact one");
-  add_servo_options(*command, options->servo);
-  const std::vector<Option*> servo = command->options();
-  Option* all = command->add_flag("--all", options->all,
-                                  "Run all servos of the thesis's charts and tabulate the errors");
-  add_plot_option(*command, options->plots, "Draw errors=FILE, the errors of --all as a map;")
-      ->needs(all);
-  Option* machine = command->add_flag("--machine", options->machine,
-                                      "Run on the emulated CDC 1604 instead of the port");
-  Option* causes =
-      command->add_flag("--causes", options->causes,
-                        "Show the effect of each property of the program on five amplitudes");
-  for (Option* option : servo) {
-    all->excludes(option);
-    causes->excludes(option);
+void add_thesis_run(const Command& thesis, Action& action) {
+  const auto [command, options] = add_verb<RunOptions>(
+      thesis, action, "run",
+      "Find the amplitude of any servo by the program of 1960, beside the exact one",
+      help_footer(run_examples), run_program);
+  add_servo_options(command, options.servo);
+  const std::vector<Option> servo = command.options();
+  const Option all = command.add_flag(
+      "--all", options.all, "Run all servos of the thesis's charts and tabulate the errors");
+  add_plot_option(command, options.plots, "Draw errors=FILE, the errors of --all as a map;")
+      .needs(all);
+  const Option machine = command.add_flag("--machine", options.machine,
+                                          "Run on the emulated CDC 1604 instead of the port");
+  const Option causes =
+      command.add_flag("--causes", options.causes,
+                       "Show the effect of each property of the program on five amplitudes");
+  for (const Option& option : servo) {
+    all.excludes(option);
+    causes.excludes(option);
   }
-  causes->excludes(all);
-  causes->excludes(machine);
-  add_limit_options(*command, options->limits);
-  set_action(*command, action, options, help_footer(run_examples), run_program);
+  causes.excludes(all);
+  causes.excludes(machine);
+  add_limit_options(command, options.limits);
 }
 
 }  // namespace gearlash::cli

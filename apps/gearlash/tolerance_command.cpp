@@ -2,22 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <memory>
-#include <optional>
 
-#include "command.hpp"
-#include "limit_options.hpp"
-#include "machine_faults.hpp"
 #include "model/proportional_servo.hpp"
-#include "output/output_file.hpp"
 #include "output/tolerance_report.hpp"
 #include "picture/tolerance_pictures.hpp"
-#include "plot_option.hpp"
 #include "question/series/toleranced_drive.hpp"
-#include "servo_options.hpp"
-#include "terminal.hpp"
+#include "verb.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -38,17 +28,13 @@ constexpr char tolerance_explanation[] =
     "  friction = { value = \"2 mN m s/rad\", normal = \"5 %\", min = \"1 mN m s/rad\" }\n"
     "  ratio = { lots = [40, { value = 50, weight = 3 }] }\n\n";
 
-struct ToleranceOptions {
-  ServoOptions servo;
+struct ToleranceOptions : QuestionOptions {
   std::string samples;
   std::string error;
   std::string amplitude;
   std::string seed = "1960";
   std::string target;
   std::string yield;
-  std::string format = "text";
-  std::vector<std::string> plots;
-  LimitOptions limits;
 };
 
 constexpr std::pair<const char*, TolerancePicture> pictures[] = {
@@ -219,54 +205,44 @@ ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
                          .provenance = provenance};
   work_out(task, work, report);
   report.stopped = work.is_stopped();
-  Extras extras;
-  extras.print(options.format == "json" ? tolerance_json(report) : tolerance_text(report));
-  const ExitStatus status = end_work(work, ExitStatus::done, unknown_text(report));
-  for (const PlotFile& plot : task.plots) {
-    extras.make([&] {
-      if (report.sensitivities.numbers.empty()) {
-        throw OutputError(plot.file + ": not drawn: the work was stopped before");
-      }
-      write_plot(plot, tolerance_plot(report, picture_of(plot)));
-    });
-  }
-  return extras.status(status);
+  return give({.text = options.format == "json" ? tolerance_json(report) : tolerance_text(report),
+               .unknown = unknown_text(report)},
+              work, task.plots, [&](const PlotFile& plot) {
+                if (report.sensitivities.numbers.empty()) refuse_to_draw(plot);
+                return tolerance_plot(report, picture_of(plot));
+              });
 }
 
 }  // namespace
 
-void add_tolerance_command(Command& app, Action& action) {
-  const auto options = std::make_shared<ToleranceOptions>();
-  Command* command =
-      app.add_subcommand("tolerance", "Predict how many samples of a production run hunt, and why");
-  add_servo_or_drive_options(*command, options->servo);
-  command->add_option(
-      "--samples N", options->samples,
+void add_tolerance_command(const Command& app, Action& action) {
+  const auto [command, options] = add_verb<ToleranceOptions>(
+      app, action, "tolerance", "Predict how many samples of a production run hunt, and why",
+      tolerance_explanation + help_footer(tolerance_examples), run);
+  add_servo_or_drive_options(command, options.servo);
+  command.add_option(
+      "--samples N", options.samples,
       "Set the least number of samples, rounded up to 16 times a power of two; default "
       "65536, with bounces, of the motor, or for a target of other quantities than "
       "amplitude, frequency and growth at rest 512, of a drive that is searched 64; at "
       "most 16777216, for every sample is kept");
-  command->add_option("--error SHARE", options->error,
-                      "Take as many samples as the probability of hunting and the yield need to be "
-                      "known to within this share: \"1 %\"");
-  command->add_option(
-      "--amplitude SHAFT", options->amplitude,
-      "Choose whose amplitude is reported: load, or motor; default load, of a drive "
-      "that is searched motor");
-  command->add_option("--seed N", options->seed, "Set the seed of the random shifts; default 1960");
-  command->add_option("--target TARGET", options->target,
-                      "Report the yield of this target, written as for design");
-  command->add_option("--yield SHARE", options->yield,
-                      "Find the largest backlash that may be accepted so that this share of the "
-                      "samples meets the target: \"95 %\" or 0.95");
-  add_plot_option(*command, options->plots,
+  command.add_option("--error SHARE", options.error,
+                     "Take as many samples as the probability of hunting and the yield need to be "
+                     "known to within this share: \"1 %\"");
+  command.add_option("--amplitude SHAFT", options.amplitude,
+                     "Choose whose amplitude is reported: load, or motor; default load, of a drive "
+                     "that is searched motor");
+  command.add_option("--seed N", options.seed, "Set the seed of the random shifts; default 1960");
+  command.add_option("--target TARGET", options.target,
+                     "Report the yield of this target, written as for design");
+  command.add_option("--yield SHARE", options.yield,
+                     "Find the largest backlash that may be accepted so that this share of the "
+                     "samples meets the target: \"95 %\" or 0.95");
+  add_plot_option(command, options.plots,
                   "Draw distribution=FILE, the samples by amplitude, yield=FILE, the yield over a "
                   "limit of the amplitude, or indices=FILE, which parameter decides;");
-  command->add_option("--format FORMAT", options->format,
-                      "Choose the format: text (default) or json");
-  add_limit_options(*command, options->limits);
-  set_action(*command, action, options, tolerance_explanation + help_footer(tolerance_examples),
-             run);
+  add_format_option(command, options.format);
+  add_limit_options(command, options.limits);
 }
 
 }  // namespace gearlash::cli

@@ -1,22 +1,14 @@
 // gearlash tune: the best values of several parameters for a whole series.
 #include <algorithm>
-#include <array>
-#include <memory>
-#include <numbers>
 
-#include "command.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
 #include "gearlash/tune.hpp"
 #include "input/axis_text.hpp"
-#include "limit_options.hpp"
-#include "machine_faults.hpp"
 #include "model/reduced_drive.hpp"
-#include "output/output_file.hpp"
 #include "output/tune_report.hpp"
 #include "question/axis.hpp"
-#include "servo_options.hpp"
-#include "terminal.hpp"
+#include "verb.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -35,8 +27,7 @@ constexpr char tune_explanation[] =
     "to\n"
     "rest, or to hunt by no more than one step of the encoder.\n\n";
 
-struct TuneOptions {
-  ServoOptions servo;
+struct TuneOptions : QuestionOptions {
   std::vector<std::string> parameters;
   std::string target;
   std::string aim = "bandwidth";
@@ -45,8 +36,6 @@ struct TuneOptions {
   std::string units = "64";
   std::string seed = "1960";
   std::string write;
-  std::string format = "text";
-  LimitOptions limits;
 };
 
 /// The usual target in words.
@@ -59,10 +48,8 @@ std::string text_of_usual(const Target& target, const AngleUnit& angle) {
 }
 
 struct TuneRequest {
-  TuneTask task;
+  TuneReport report;  ///< without the answer
   TuneEffort effort;
-  std::string target_text;
-  AngleUnit angle;
   Limits limits;
 };
 
@@ -72,117 +59,106 @@ Aim read_aim(const std::string& text, Faults& faults) {
   return text == "static-error" ? Aim::static_error : Aim::bandwidth;
 }
 
-void read_numbers(const TuneOptions& options, TuneRequest& task, Faults& faults) {
-  task.task.aim = read_aim(options.aim, faults);
-  task.task.share = read_share("--share", options.share, faults);
-  task.task.least_phase_margin = faults.collect(
+void read_numbers(const TuneOptions& options, TuneTask& task, TuneEffort& effort, Faults& faults) {
+  task.aim = read_aim(options.aim, faults);
+  task.share = read_share("--share", options.share, faults);
+  task.least_phase_margin = faults.collect(
       [&] { return read_si("--phase-margin", options.phase_margin, dimensions::angle); },
-      task.task.least_phase_margin);
+      task.least_phase_margin);
   constexpr std::size_t most_units = 100'000;
-  task.effort.units = collect_whole("--units", options.units, 1, most_units, faults);
-  task.effort.seed = collect_whole("--seed", options.seed, 0, std::uint64_t{1} << 53U, faults);
+  effort.units = collect_whole("--units", options.units, 1, most_units, faults);
+  effort.seed = collect_whole("--seed", options.seed, 0, std::uint64_t{1} << 53U, faults);
 }
 
-TuneRequest read_task(const TuneOptions& options) {
-  TuneRequest task;
+TuneRequest read_request(const TuneOptions& options) {
+  TuneRequest request;
+  TuneReport& report = request.report;
+  TuneTask& task = report.task;
   Faults faults;
   faults.require_choice("--format", options.format, {"text", "json"});
-  read_numbers(options, task, faults);
-  task.limits = read_limits(options.limits, faults);
+  read_numbers(options, task, request.effort, faults);
+  request.limits = read_limits(options.limits, faults);
   const std::optional<WrittenDrive> written =
       resolve_drive(options.servo, {{"--write", options.write}}, faults);
   if (!written) faults.require_none();
   const Drive& drive = written->drive;
-  task.angle = written->angle;
-  task.task.series = {drive, written->tolerances};
-  task.task.tuned = collect_axes(
-      options.parameters.empty() ? usual_gains(drive) : options.parameters,
-      [&](const auto& text, auto* out) {
-        return read_axis_to_tune("--parameters", text, drive, out);
-      },
-      faults);
-  if (task.task.tuned.empty()) {
+  report.angle = written->angle;
+  task.series = {drive, written->tolerances};
+  const auto names = options.parameters.empty() ? usual_gains(drive) : options.parameters;
+  task.tuned = collect_axes("--parameters", names, drive, read_axis_to_tune, faults);
+  if (names.empty()) {
     faults.add({"--parameters", "", "must name what to tune: the drive has no gain above 0", ""});
   }
-  task.target_text = options.target;
+  report.target_text = options.target;
   if (options.target.empty()) {
-    task.task.target = usual_target(drive);
-    task.target_text = text_of_usual(task.task.target, task.angle);
+    task.target = usual_target(drive);
+    report.target_text = text_of_usual(task.target, report.angle);
   } else {
-    task.task.target = collect_target(options.target, &drive, faults);
+    task.target = collect_target(options.target, &drive, faults);
   }
   faults.require_none();
-  std::erase_if(task.task.series.varied, [&](const ParameterTolerance& varied) {
-    return std::any_of(task.task.tuned.begin(), task.task.tuned.end(), [&](const Axis& axis) {
+  std::erase_if(task.series.varied, [&](const ParameterTolerance& varied) {
+    return std::any_of(task.tuned.begin(), task.tuned.end(), [&](const Axis& axis) {
       return parameter_of(axis, drive)->path == varied.path;
     });
   });
-  return task;
+  return request;
 }
 
 ExitStatus run(const TuneOptions& options, const Provenance& provenance) {
-  const TuneRequest task = read_task(options);
-  TuneReport report{.task = task.task,
-                    .target_text = task.target_text,
-                    .angle = task.angle,
-                    .provenance = provenance};
-  LimitedWork work(task.limits);
-  {
-    TerminalProgress progress(work, "Tune");
-    report.tuned = tune(task.task, task.effort, progress);
-  }
-  const auto lesser = without_integral_action(task.task);
+  const auto [asked, effort, limits] = read_request(options);
+  TuneReport report = asked;
+  report.provenance = provenance;
+  LimitedWork work(limits);
+  report.tuned = tune(report.task, effort, TerminalProgress(work, "Tune").as_argument());
+  const auto lesser = without_integral_action(report.task);
   if (!report.tuned.meets && !work.is_stopped() && lesser) {
-    TerminalProgress progress(work, "Tune without integral action");
-    report.without_integral = tune(*lesser, task.effort, progress);
+    report.without_integral =
+        tune(*lesser, effort, TerminalProgress(work, "Tune without integral action").as_argument());
   }
   {
     TerminalProgress progress(work, "Searching");
-    report.present = analyse(task.task.series.nominal, {.proofs = false}, progress);
+    report.present = analyse(report.task.series.nominal, {.proofs = false}, progress);
     report.nominal = analyse(report.tuned.drive, {.proofs = false}, progress);
   }
-  Extras extras;
-  extras.print(options.format == "json" ? tune_json(report) : tune_text(report));
-  const ExitStatus status = end_work(
-      work, ExitStatus::done,
-      report.tuned.stopped ? "the values are the best by then" : "what these values do is not");
-  if (!options.write.empty()) {
-    extras.make([&] { write_file(options.write, tuned_toml(report)); });
-  }
-  return extras.status(status);
+  return give({.text = options.format == "json" ? tune_json(report) : tune_text(report),
+               .unknown = report.tuned.stopped ? "the values are the best by then"
+                                               : "what these values do is not"},
+              work, [&](Extras& extras) {
+                if (options.write.empty()) return;
+                extras.make([&] { write_file(options.write, tuned_toml(report)); });
+              });
 }
 
 }  // namespace
 
-void add_tune_command(Command& app, Action& action) {
-  const auto options = std::make_shared<TuneOptions>();
-  Command* command = app.add_subcommand(
-      "tune", "Find the best values of several parameters for a whole series of drives");
-  add_servo_or_drive_options(*command, options->servo);
-  command
-      ->add_option("--parameters NAMES", options->parameters,
-                   "List the numbers to tune, by path, separated by commas, each from 0.1 to 10 "
-                   "times its present value, or over PATH=FROM:TO with units; default: the "
-                   "controller's gains that are above 0")
-      ->delimiter(',');
-  command->add_option("--target TARGET", options->target,
-                      "Set the target that each unit must meet, written as for design");
-  command->add_option(
-      "--for AIM", options->aim,
+void add_tune_command(const Command& app, Action& action) {
+  const auto [command, options] = add_verb<TuneOptions>(
+      app, action, "tune",
+      "Find the best values of several parameters for a whole series of drives",
+      tune_explanation + help_footer(tune_examples), run);
+  add_servo_or_drive_options(command, options.servo);
+  command.add_option("--parameters NAMES", options.parameters,
+                     "List the numbers to tune, by path, separated by commas, each from 0.1 to 10 "
+                     "times its present value, or over PATH=FROM:TO with units; default: the "
+                     "controller's gains that are above 0",
+                     {.delimiter = ','});
+  command.add_option("--target TARGET", options.target,
+                     "Set the target that each unit must meet, written as for design");
+  command.add_option(
+      "--for AIM", options.aim,
       "Choose what is best: the greatest bandwidth (default), the shortest settling or "
       "the least static-error, of the worst unit");
-  command->add_option("--share SHARE", options->share,
-                      "Set the share of the units that must meet the target; default 100 %");
-  command->add_option("--phase-margin ANGLE", options->phase_margin,
-                      "Set the least phase margin of the linear loop; default 30 deg");
-  command->add_option("--units N", options->units,
-                      "Set the number of units to which each proposal is put; default 64");
-  command->add_option("--seed N", options->seed, "Set the seed of the units; default 1960");
-  command->add_option("--write FILE", options->write, "Write the tuned drive to this file");
-  command->add_option("--format FORMAT", options->format,
-                      "Choose the format: text (default) or json");
-  add_limit_options(*command, options->limits);
-  set_action(*command, action, options, tune_explanation + help_footer(tune_examples), run);
+  command.add_option("--share SHARE", options.share,
+                     "Set the share of the units that must meet the target; default 100 %");
+  command.add_option("--phase-margin ANGLE", options.phase_margin,
+                     "Set the least phase margin of the linear loop; default 30 deg");
+  command.add_option("--units N", options.units,
+                     "Set the number of units to which each proposal is put; default 64");
+  command.add_option("--seed N", options.seed, "Set the seed of the units; default 1960");
+  command.add_option("--write FILE", options.write, "Write the tuned drive to this file");
+  add_format_option(command, options.format);
+  add_limit_options(command, options.limits);
 }
 
 }  // namespace gearlash::cli

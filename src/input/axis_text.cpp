@@ -72,15 +72,16 @@ bool is_rounded(const AxisText& axis, const Drive& drive) {
 }
 
 /// An axis as typed, or that of a name alone.
-template <class AxisOfName>
 Axis read_typed_axis(std::string_view field, std::string_view text, const Drive& drive,
-                     std::string* left_out, const AxisOfName& axis_of) {
+                     std::string* left_out,
+                     Axis (*axis_of)(std::string_view field, const Drive& drive,
+                                     std::string_view name)) {
   if (text.find('=') != std::string_view::npos) {
     return read_axis(split_axis(field, text), drive, left_out);
   }
   const Axis named{.path = path_named(text, drive)};
   if (parameter_of(named, drive) == nullptr) refuse(field, text, known_text(drive, text));
-  return axis_of(text);
+  return axis_of(field, drive, text);
 }
 
 }  // namespace
@@ -96,23 +97,22 @@ AxisText split_axis(std::string_view field, std::string_view text) {
 
 Axis read_axis_or_name(std::string_view field, std::string_view text, const Drive& drive,
                        std::string* left_out) {
-  return read_typed_axis(field, text, drive, left_out,
-                         [&](std::string_view name) { return usual_axis(field, drive, name); });
+  return read_typed_axis(field, text, drive, left_out, usual_axis);
 }
 
 Axis read_axis_to_search(std::string_view field, std::string_view text, const Drive& drive,
                          std::string* left_out) {
-  return read_typed_axis(field, text, drive, left_out,
-                         [&](std::string_view name) { return axis_to_search(field, drive, name); });
+  return read_typed_axis(field, text, drive, left_out, axis_to_search);
 }
 
-Axis read_axis_to_tune(std::string_view field, const std::string& text, const Drive& drive,
+Axis read_axis_to_tune(std::string_view field, std::string_view text, const Drive& drive,
                        std::string* left_out) {
   const bool has_two_ends = std::count(text.begin(), text.end(), ':') == 1;
   // Between the ends are values that remain if an end is not permitted.
-  Axis axis = read_axis_or_name(field, has_two_ends ? text + ":101" : text, drive, left_out);
+  const std::string with_count = std::string(text) + (has_two_ends ? ":101" : "");
+  Axis axis = read_axis_or_name(field, with_count, drive, left_out);
   if (has_two_ends) axis.values = {axis.values.front(), axis.values.back()};
-  if (text.find('=') == std::string::npos) return usual_axis_to_tune(drive, axis.path);
+  if (text.find('=') == std::string_view::npos) return usual_axis_to_tune(drive, axis.path);
   axis.logarithmic = axis.values.front() > 0.0;
   return axis;
 }

@@ -33,6 +33,10 @@ Drive drive_of_axes(const Drive& drive, const std::vector<AxisText>& axes);
 /// none, and it takes one line that says so.
 Axis read_axis(const AxisText& text, const Drive& drive, std::string* left_out = nullptr);
 
+/// Reads an axis of an option, where a name alone has an axis of its own.
+using AxisReader = Axis (*)(std::string_view field, std::string_view text, const Drive& drive,
+                            std::string* left_out);
+
 /// An axis as typed, or usual_axis() of a name alone: "controller.proportional". Throws as both do.
 Axis read_axis_or_name(std::string_view field, std::string_view text, const Drive& drive,
                        std::string* left_out = nullptr);
@@ -42,7 +46,7 @@ Axis read_axis_to_search(std::string_view field, std::string_view text, const Dr
 
 /// The values that tune() may try: PATH=FROM:TO, by ratio where both ends are positive; an axis as
 /// typed; or usual_axis_to_tune() of a name alone. Throws as these do.
-Axis read_axis_to_tune(std::string_view field, const std::string& text, const Drive& drive,
+Axis read_axis_to_tune(std::string_view field, std::string_view text, const Drive& drive,
                        std::string* left_out = nullptr);
 
 }  // namespace gearlash

@@ -167,22 +167,8 @@ Setting read_setting(const std::string& text) {
 }
 
 const char* name_of(SensorPlace place) {
-  switch (place) {
-    case SensorPlace::load:
-      return "load";
-    case SensorPlace::motor:
-      return "motor";
-    case SensorPlace::both:
-      return "both";
-  }
-  return "";
-}
-
-std::optional<SensorPlace> sensor_named(std::string_view name) {
-  for (const SensorPlace place : {SensorPlace::load, SensorPlace::motor, SensorPlace::both}) {
-    if (name == name_of(place)) return place;
-  }
-  return std::nullopt;
+  constexpr const char* names[] = {"load", "motor", "both"};
+  return names[static_cast<std::size_t>(place)];
 }
 
 Drive read_drive(const std::filesystem::path& toml) { return read_toleranced_drive(toml).nominal; }

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -65,6 +64,5 @@ Setting read_setting(const std::string& text);
 
 /// "load", "motor", "both".
 const char* name_of(SensorPlace place);
-std::optional<SensorPlace> sensor_named(std::string_view name);
 
 }  // namespace gearlash

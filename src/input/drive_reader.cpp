@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "input/parameter_text.hpp"
 #include "input/robot_form.hpp"
@@ -23,19 +22,11 @@ constexpr char loop[] = "loop";
 
 bool is_choice(const Slot& slot) { return std::holds_alternative<Choice>(slot); }
 
-/// The form that gives the parameter's reciprocal; nullptr if there is none.
-const OtherForm* inverse_form(const Parameter& parameter) {
-  for (const OtherForm& form : parameter.other_forms) {
-    if (form.dimension != nullptr) return &form;
-  }
-  return nullptr;
-}
-
 /// A contact with a stiffness and no kind is compliant.
 void infer_kind_of_contact(const TomlDocument& document, Drive& drive) {
-  const toml::table* table = document.root()["contact"].as_table();
-  if (table == nullptr || table->contains("kind")) return;
-  if (table->contains("stiffness") || table->contains("damping") || table->contains("law")) {
+  const auto has = [&](const char* path) { return document.value_at(path) != nullptr; };
+  if (has("contact.kind")) return;
+  if (has("contact.stiffness") || has("contact.damping") || has("contact.law")) {
     drive.contact = CompliantContact{};
   }
 }
@@ -97,7 +88,8 @@ class DriveReader {
   WrittenDrive read() {
     if (is_normal_form()) drive().servo.emplace();
     if (is_robots_form()) {
-      drive() = robots_joint(has_key("actuator", "kv"), has_key("actuator", "timestep"));
+      drive() = robots_joint(document_.value_at("actuator.kv") != nullptr,
+                             document_.value_at("actuator.timestep") != nullptr);
     }
     refuse_other_sections();
     if (!has_anything()) return std::move(file_);
@@ -118,10 +110,6 @@ class DriveReader {
                                            [&](const char* name) { return has(name); });
   }
   bool is_robots_form() const { return has("joint") || has("actuator"); }
-  bool has_key(const char* section, const char* key) const {
-    const toml::table* table = document_.root()[section].as_table();
-    return table != nullptr && table->contains(key);
-  }
 
   /// Drive::is_rounded.
   bool has_rounded_numbers() {
@@ -260,7 +248,7 @@ class DriveReader {
 
   /// Whether --set gives the kind. The file's keys may then belong to another kind.
   bool is_kind_set(const std::string& name) const {
-    const toml::node* kind = document_.root()[name]["kind"].node();
+    const toml::node* kind = document_.value_at(name + ".kind");
     return kind != nullptr && kind->source().begin.line == 0;
   }
 
@@ -279,27 +267,27 @@ class DriveReader {
     return given == nullptr ? keys.front() : *given;
   }
 
+  /// A current that times the torque constant gives a torque.
+  static void refuse_current(SectionReader& section, const char* current, const std::string& torque,
+                             bool is_taken, const char* otherwise) {
+    if (!section.has(current)) return;
+    if (section.has(torque)) {
+      section.refuse(current,
+                     "must not stand beside " + torque + ": it gives it, times torque_constant");
+    } else if (!is_taken) {
+      section.refuse(current, otherwise);
+    }
+  }
+
   /// Refuses keys whose parameter the drive has lost because of another key.
   void refuse_rivals(SectionReader& section, const std::string& name) {
-    if (name == "motor" && motor_is_known_ && section.has("no_load_current")) {
-      if (section.has("coulomb")) {
-        section.refuse("no_load_current",
-                       "must not stand beside coulomb: it gives it, times torque_constant");
-      } else if (!takes_no_load_current(drive().motor)) {
-        section.refuse("no_load_current",
-                       "must stand beside the torque_constant of a motor with direct current "
-                       "through its armature: the product is its dry friction");
-      }
-    }
-    if (name == "motor" && motor_is_known_ && section.has("current_limit")) {
-      if (section.has("torque_limit")) {
-        section.refuse("current_limit",
-                       "must not stand beside torque_limit: it gives it, times torque_constant");
-      } else if (!takes_current_limit(drive().motor)) {
-        section.refuse("current_limit",
-                       "must stand beside the torque_constant of a torque-controlled motor, or in "
-                       "an armature- or field-controlled one");
-      }
+    if (name == "motor" && motor_is_known_) {
+      refuse_current(section, "no_load_current", "coulomb", takes_no_load_current(drive().motor),
+                     "must stand beside the torque_constant of a motor with direct current through "
+                     "its armature: the product is its dry friction");
+      refuse_current(section, "current_limit", "torque_limit", takes_current_limit(drive().motor),
+                     "must stand beside the torque_constant of a torque-controlled motor, or in an "
+                     "armature- or field-controlled one");
     }
     if (name == "sensor") {
       for (const char* prefix : {"", "speed_"}) {
@@ -417,10 +405,10 @@ class DriveReader {
   void check_value(SectionReader& section, const Parameter& parameter, const Key& key) {
     const Dimension* dimension = parameter.dimension(drive());
     if (dimension == nullptr || parameter.section() == "controller") return;
-    const auto value = section.optional_quantity(key.name, *dimension);
-    if (!value) return;
+    if (!section.has(key.name)) return section.know(key.name);
+    const double value = section.quantity(key.name, *dimension).si;
     RangeCheck check;
-    check_number(check, parameter, value->si, dimension->unit);
+    check_number(check, parameter, value, dimension->unit);
     if (!check.faults().empty()) {
       section.refuse(key.name, check.faults().front().permitted);
     }
@@ -447,8 +435,8 @@ class DriveReader {
   }
 
   void check() {
-    findings_.take(
-        faults(sanitized()), [&](const std::string& field) { return name_in_file(field); }, place_);
+    findings_.take(faults(sanitized()), place_,
+                   [&](const std::string& field) { return name_in_file(field); });
     if (findings_.none()) check_tolerances();
   }
 
@@ -474,7 +462,7 @@ class DriveReader {
       return name_in_file(field.substr(0, field.find('.', field.find('.') + 1)));
     };
     if (file_.tolerances.empty()) return;
-    findings_.take(faults(TolerancedDrive{drive(), file_.tolerances}), name_of, place_);
+    findings_.take(faults(TolerancedDrive{drive(), file_.tolerances}), place_, name_of);
   }
 
   /// The key under which the file gives a parameter.
@@ -483,11 +471,7 @@ class DriveReader {
     const Parameter* parameter = find_parameter(path);
     if (parameter == nullptr) return path;
     for (const OtherForm& form : parameter->other_forms) {
-      const std::size_t point = form.path.find('.');
-      const toml::table* table = document_.root()[form.path.substr(0, point)].as_table();
-      if (table != nullptr && table->contains(form.path.substr(point + 1))) {
-        return std::string(form.path);
-      }
+      if (document_.value_at(form.path) != nullptr) return std::string(form.path);
     }
     return path;
   }

@@ -1,7 +1,5 @@
 #include "input/parameter_text.hpp"
 
-#include <algorithm>
-
 #include "gearlash/parameter.hpp"
 #include "input/section_reader.hpp"
 #include "input/toml_document.hpp"
@@ -9,13 +7,6 @@
 
 namespace gearlash {
 namespace {
-
-const OtherForm* inverse_form(const Parameter& parameter, std::string_view path) {
-  for (const OtherForm& form : parameter.other_forms) {
-    if (form.dimension != nullptr && (form.path == path || parameter.path == path)) return &form;
-  }
-  return nullptr;
-}
 
 toml::array list_of(std::string_view path, std::string_view text) {
   if (std::optional<toml::array> list = list_in(text)) return *std::move(list);
@@ -43,6 +34,13 @@ Rows rows_of(std::string_view path, const toml::array& array) {
 
 }  // namespace
 
+const OtherForm* inverse_form(const Parameter& parameter) {
+  for (const OtherForm& form : parameter.other_forms) {
+    if (form.dimension != nullptr) return &form;
+  }
+  return nullptr;
+}
+
 NumberText number_text(const Parameter& parameter) {
   if (parameter.permitted == Permitted::share) return read_share;
   return parameter.path == "servo.friction_ratio" ? read_part : read_number;
@@ -54,12 +52,13 @@ double number_of(const Parameter& parameter, const Drive& drive, std::string_vie
   if (dimension == nullptr || path.find('[') != std::string_view::npos) {
     return number_text(parameter)(path, text);
   }
-  const OtherForm* inverse = inverse_form(parameter, path);
-  if (inverse != nullptr && inverse->path == path) return to_si(path, text, *inverse->dimension);
+  const OtherForm* form = form_named(parameter, path);
+  if (form != nullptr && form->dimension != nullptr) return to_si(path, text, *form->dimension);
+  const OtherForm* inverse = inverse_form(parameter);
   try {
     return to_si(path, text, *dimension);
   } catch (const InvalidInput&) {  // "1 kHz" for a period
-    if (inverse == nullptr) throw;
+    if (inverse == nullptr || parameter.path != path) throw;
   }
   return inverse->inverse / to_si(path, text, *inverse->dimension);
 }

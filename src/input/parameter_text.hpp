@@ -16,6 +16,9 @@ double number_of(const Parameter& parameter, const Drive& drive, std::string_vie
 /// How its text is read if it has no unit: read_number(), or what knows where its range ends.
 NumberText number_text(const Parameter& parameter);
 
+/// The form that gives the parameter's reciprocal; nullptr if there is none.
+const OtherForm* inverse_form(const Parameter& parameter);
+
 /// The index of a word among the parameter's choices. Throws InvalidInput, naming the path, for any
 /// other word.
 std::size_t choice_of(const Parameter& parameter, std::string_view path, std::string_view text);

@@ -1,7 +1,6 @@
 #include "input/section_reader.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 #include "question/series/distribution.hpp"
@@ -12,6 +11,8 @@ namespace {
 // These are in range for every key and cause no faults of their own.
 constexpr double placeholder_quantity = 1.0;
 constexpr double placeholder_number = 0.5;
+
+constexpr char list_of_texts[] = "must be a list of texts: [\"…\", \"…\"]";
 
 /// Levenshtein distance: the least number of insertions, deletions and replacements.
 std::size_t edit_distance(std::string_view from, std::string_view to) {
@@ -98,9 +99,8 @@ void Findings::refuse(Place place, const std::string& field, const std::string& 
   found_.push_back({place, {field, value, permitted, document_.where(place)}});
 }
 
-void Findings::take(const std::vector<Fault>& faults,
-                    const std::function<std::string(const std::string&)>& field_of,
-                    Place otherwise) {
+void Findings::take(const std::vector<Fault>& faults, Place otherwise,
+                    const std::function<std::string(const std::string&)>& field_of) {
   const bool complete = none();
   for (const Fault& fault : faults) {
     const std::string field = field_of(fault.path);
@@ -143,13 +143,6 @@ Measured SectionReader::quantity(const std::string& key, const Dimension& expect
   return value != nullptr ? read(key, *value, expected) : Measured{.si = placeholder_quantity};
 }
 
-std::optional<Measured> SectionReader::optional_quantity(const std::string& key,
-                                                         const Dimension& expected) {
-  const toml::node* value = find(key);
-  if (value == nullptr) return std::nullopt;
-  return read(key, *value, expected);
-}
-
 double SectionReader::number(const std::string& key, const std::string& permitted,
                              NumberText read_text) {
   const toml::node* value = require(key, "must be " + permitted);
@@ -170,24 +163,37 @@ std::optional<std::string> SectionReader::choice(const std::string& key,
   return std::nullopt;
 }
 
+template <class Read>
+auto SectionReader::read_list(const std::string& name, const toml::node& value,
+                              const std::string& permitted, const Read& read) {
+  std::vector<decltype(read(name, value))> list;
+  findings_.remember(name, value);
+  const toml::array* array = value.as_array();
+  if (array == nullptr) findings_.refuse(name, value, permitted);
+  for (std::size_t i = 0; array != nullptr && i < array->size(); ++i) {
+    const std::string element = name + "[" + std::to_string(i) + "]";
+    findings_.remember(element, *array->get(i));
+    list.push_back(read(element, *array->get(i)));
+  }
+  return list;
+}
+
 std::vector<std::string> SectionReader::texts(const std::string& key,
                                               const std::string& permitted) {
   const toml::node* value = permitted.empty() ? find(key) : require(key, "must be " + permitted);
   if (value == nullptr) return {};
   const toml::array* array = value->as_array();
-  if (array == nullptr || array->empty()) {
-    findings_.refuse(field(key), *value, "must be a list of texts: [\"…\", \"…\"]");
+  if (array != nullptr && array->empty()) {
+    findings_.refuse(field(key), *value, list_of_texts);
     return {};
   }
-  std::vector<std::string> list;
-  for (std::size_t i = 0; i < array->size(); ++i) {
-    const std::string name = field(key) + "[" + std::to_string(i) + "]";
-    const toml::node& element = *array->get(i);
-    findings_.remember(name, element);
-    if (!element.is_string()) findings_.refuse(name, element, "must be a text: \"…\"");
-    list.push_back(element.value_or(std::string()));
-  }
-  return list;
+  return read_list(field(key), *value, list_of_texts,
+                   [&](const std::string& name, const toml::node& element) {
+                     if (!element.is_string()) {
+                       findings_.refuse(name, element, "must be a text: \"…\"");
+                     }
+                     return element.value_or(std::string());
+                   });
 }
 
 std::string SectionReader::text(const std::string& key, const std::string& permitted) {
@@ -198,50 +204,32 @@ std::string SectionReader::text(const std::string& key, const std::string& permi
   return value->value_or(std::string());
 }
 
-std::vector<double> SectionReader::numbers(const std::string& key, const std::string& permitted) {
-  const toml::node* value = require(key, "must be " + permitted);
-  return value != nullptr ? read_list(field(key), *value, permitted) : std::vector<double>{};
+std::vector<double> SectionReader::read_numbers(const std::string& name, const toml::node& value,
+                                                const std::string& permitted) {
+  return read_list(name, value, "must be " + permitted,
+                   [&](const std::string& element, const toml::node& node) {
+                     try {
+                       return exact_number(element, node);
+                     } catch (const InvalidInput& problem) {
+                       findings_.refuse(element, node, problem.faults().front().permitted);
+                       return placeholder_number;
+                     }
+                   });
 }
 
-std::vector<double> SectionReader::read_list(const std::string& name, const toml::node& value,
-                                             const std::string& permitted) {
-  findings_.remember(name, value);
-  const toml::array* array = value.as_array();
-  if (array == nullptr) {
-    findings_.refuse(name, value, "must be " + permitted);
-    return {};
-  }
-  std::vector<double> list;
-  for (std::size_t i = 0; i < array->size(); ++i) {
-    const std::string element = name + "[" + std::to_string(i) + "]";
-    const toml::node& node = *array->get(i);
-    findings_.remember(element, node);
-    try {
-      list.push_back(exact_number(element, node));
-    } catch (const InvalidInput& problem) {
-      findings_.refuse(element, node, problem.faults().front().permitted);
-      list.push_back(placeholder_number);
-    }
-  }
-  return list;
+std::vector<double> SectionReader::numbers(const std::string& key, const std::string& permitted) {
+  const toml::node* value = require(key, "must be " + permitted);
+  return value != nullptr ? read_numbers(field(key), *value, permitted) : std::vector<double>{};
 }
 
 std::vector<std::vector<double>> SectionReader::rows(const std::string& key,
                                                      const std::string& permitted) {
   const toml::node* value = require(key, "must be " + permitted);
   if (value == nullptr) return {};
-  const toml::array* array = value->as_array();
-  findings_.remember(field(key), *value);
-  if (array == nullptr) {
-    findings_.refuse(field(key), *value, "must be " + permitted);
-    return {};
-  }
-  std::vector<std::vector<double>> result;
-  for (std::size_t i = 0; i < array->size(); ++i) {
-    const std::string name = field(key) + "[" + std::to_string(i) + "]";
-    result.push_back(read_list(name, *array->get(i), permitted));
-  }
-  return result;
+  return read_list(field(key), *value, "must be " + permitted,
+                   [&](const std::string& name, const toml::node& row) {
+                     return read_numbers(name, row, permitted);
+                   });
 }
 
 void SectionReader::refuse(const std::string& key, const std::string& permitted) {

@@ -31,12 +31,15 @@ class Findings {
 
   /// Records where the value of `field` stands, to locate a fault that faults() may find in it.
   void remember(const std::string& field, const toml::node& value) { values_[field] = &value; }
-  /// Adds the faults that faults() found. Each is located at the value remembered under the name
-  /// that `field_of` returns. A fault of no single value follows from several: it is located at
-  /// `otherwise`, and is added only if every value could be read, because placeholders could have
-  /// caused it.
-  void take(const std::vector<Fault>& faults,
-            const std::function<std::string(const std::string&)>& field_of, Place otherwise);
+  /// Adds the faults that faults() found. Each is located at the value remembered under its path,
+  /// or the name that `field_of` gives for it. A fault of no single value follows from several: it
+  /// is located at `otherwise`, and is added only if every value could be read, because
+  /// placeholders could have caused it.
+  void take(
+      const std::vector<Fault>& faults, Place otherwise,
+      const std::function<std::string(const std::string&)>& field_of = [](const std::string& path) {
+        return path;
+      });
 
   bool none() const { return found_.empty(); }
   /// Throws InvalidInput with all findings in the order of the file.
@@ -78,7 +81,6 @@ class SectionReader {
 
   /// A number with its unit, given as text.
   Measured quantity(const std::string& key, const Dimension& expected);
-  std::optional<Measured> optional_quantity(const std::string& key, const Dimension& expected);
   /// A number without unit: a TOML number, or text (a fraction). `permitted` describes the number
   /// in the fault of a missing key.
   double number(const std::string& key, const std::string& permitted,
@@ -115,8 +117,12 @@ class SectionReader {
   const toml::node* require(const std::string& key, const std::string& permitted);
   Measured read(const std::string& key, const toml::node& value, const Dimension& expected);
   double read(const std::string& key, const toml::node& value, NumberText read_text);
-  std::vector<double> read_list(const std::string& name, const toml::node& value,
-                                const std::string& permitted);
+  /// What `read` makes of each element, "name[0]", "name[1]", …
+  template <class Read>
+  auto read_list(const std::string& name, const toml::node& value, const std::string& permitted,
+                 const Read& read);
+  std::vector<double> read_numbers(const std::string& name, const toml::node& value,
+                                   const std::string& permitted);
   Measured read(const std::string& key, const toml::node& value, const ExactReader& read_exact,
                 double placeholder);
   std::string field(const std::string& key) const { return name_ + "." + key; }

@@ -3,9 +3,7 @@
 #define CSV_IO_NO_THREAD  // small files
 #include <libfccp/csv.h>
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "input/text_file.hpp"
 #include "input/units.hpp"

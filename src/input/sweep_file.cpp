@@ -18,8 +18,6 @@ std::string numbered(const char* key, std::size_t number) {
   return std::string(section_name) + "." + key + "[" + std::to_string(number) + "]";
 }
 
-std::string same_field(const std::string& field) { return field; }
-
 /// Adds the axis's parameter under each path that a file may use for it.
 void add_paths(const AxisText& axis, std::set<std::string>& paths) {
   for (const Drive& drive : {Drive{}, normal_form(0.5, 1.0, 0.5)}) {
@@ -57,7 +55,7 @@ class SweepReader {
         drive_of_axes(read_drive(document_, findings_, folder_, variation).drive, axes);
     std::vector<std::string> fields;
     for (const AxisText& axis : axes) fields.push_back(axis.field);
-    findings_.take(faults(file.grid, fields), &same_field, section.place());
+    findings_.take(faults(file.grid, fields), section.place());
     findings_.require_none();
     if (file.quantities.empty()) {
       const auto known = quantities_known(Family(file.grid).engines());
@@ -73,7 +71,7 @@ class SweepReader {
     try {
       work();
     } catch (const InvalidInput& fault) {
-      findings_.take(fault.faults(), &same_field, section.place());
+      findings_.take(fault.faults(), section.place());
     }
   }
 
@@ -95,7 +93,7 @@ class SweepReader {
       if (i >= most_axes_of_a_sweep) {
         findings_.take(
             {{field, "", "must be at most " + std::to_string(most_axes_of_a_sweep) + " axes", ""}},
-            &same_field, section.place());
+            section.place());
         break;
       }
       note(section, [&] { axes.push_back(split_axis(field, texts[i])); });
@@ -115,7 +113,7 @@ class SweepReader {
       if (quantity && quantity != Quantity::verdict) {
         asked.insert(*quantity);
       } else {
-        findings_.take({{numbered("quantities", i), "", one_of(names, texts[i]), ""}}, &same_field,
+        findings_.take({{numbered("quantities", i), "", one_of(names, texts[i]), ""}},
                        section.place());
       }
     }

@@ -5,7 +5,6 @@
 #include <iostream>
 #include <system_error>
 
-#include "base/fault.hpp"
 #include "input/units.hpp"
 
 namespace gearlash {

@@ -1,7 +1,6 @@
 #include "input/toleranced_value.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 #include <vector>

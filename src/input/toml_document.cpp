@@ -1,7 +1,6 @@
 #include "input/toml_document.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <sstream>
 
 #include "input/units.hpp"
@@ -197,6 +196,12 @@ void TomlDocument::require_doubles(const toml::node& node) const {
   }
 }
 
+const toml::node* TomlDocument::value_at(std::string_view path) const {
+  const std::size_t point = path.find('.');
+  const toml::table* table = root_[path.substr(0, point)].as_table();
+  return table != nullptr ? table->get(path.substr(point + 1)) : nullptr;
+}
+
 void TomlDocument::set(std::string_view path, const toml::node& value, std::string_view written) {
   const std::size_t point = path.find('.');
   if (has_long_decimal(written)) long_settings_.emplace(path);
@@ -278,9 +283,7 @@ bool TomlDocument::is_long(const toml::node& node) const {
 }
 
 bool TomlDocument::has_long_decimal_at(std::string_view path) const {
-  const std::size_t point = path.find('.');
-  const toml::table* table = root_[path.substr(0, point)].as_table();
-  const toml::node* node = table != nullptr ? table->get(path.substr(point + 1)) : nullptr;
+  const toml::node* node = value_at(path);
   return node != nullptr && (is_long(*node) || long_settings_.count(path) > 0);
 }
 

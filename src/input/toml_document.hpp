@@ -26,6 +26,8 @@ class TomlDocument {
   TomlDocument(std::string_view text, std::string_view source_name, std::size_t largest);
 
   const toml::table& root() const { return root_; }
+  /// The value of the key `path`, "section.key"; nullptr if there is none.
+  const toml::node* value_at(std::string_view path) const;
 
   /// Sets the key `path`, "section.key", to a value that has no place in the text: it was read from
   /// `written`.

@@ -7,8 +7,6 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <string>
-#include <string_view>
 
 namespace gearlash {
 namespace {

@@ -1,7 +1,6 @@
 // The units that words stand for, from a table made of UDUNITS-2's database and our aliases.
 #pragma once
 
-#include <string>
 #include <string_view>
 #include <vector>
 

@@ -83,10 +83,10 @@ class UnitReader {
     Unit result;
     result.multiply(power(begins_with_number_allowed), 1);
     while (skip_blanks(), !rest_.empty() && rest_[0] != ')') {
-      if (take('/') || take_per()) {
+      if (take("/") || take("per ")) {
         result.multiply(power(true), -1);
       } else {
-        if (!take('*') && !take('.')) take('-');
+        if (!take("*") && !take(".")) take("-");
         result.multiply(power(false), 1);
       }
     }
@@ -95,9 +95,9 @@ class UnitReader {
 
   Unit power(bool number_allowed) {
     skip_blanks();
-    if (take('(')) {
+    if (take("(")) {
       const Unit inner = product(true);
-      if (!take(')')) throw NotAUnit("a \"(\" has no \")\"");
+      if (!take(")")) throw NotAUnit("a \"(\" has no \")\"");
       return raised(inner);
     }
     if (!rest_.empty() && is_digit(rest_[0])) {
@@ -149,7 +149,7 @@ class UnitReader {
   }
 
   Unit raised(const Unit& base) {
-    const bool announced = take('^') || take_double_star();
+    const bool announced = take("^") || take("**");
     const bool negative = rest_.size() > 1 && rest_[0] == '-' && is_digit(rest_[1]);
     const std::size_t digit = negative ? 1 : 0;
     if (rest_.size() <= digit || !is_digit(rest_[digit])) {
@@ -165,21 +165,9 @@ class UnitReader {
     return result.multiply(base, exponent);
   }
 
-  bool take(char c) {
-    if (!rest_.starts_with(c)) return false;
-    rest_.remove_prefix(1);
-    return true;
-  }
-
-  bool take_double_star() {
-    if (!rest_.starts_with("**")) return false;
-    rest_.remove_prefix(2);
-    return true;
-  }
-
-  bool take_per() {
-    if (!rest_.starts_with("per ")) return false;
-    rest_.remove_prefix(4);
+  bool take(std::string_view sign) {
+    if (!rest_.starts_with(sign)) return false;
+    rest_.remove_prefix(sign.size());
     return true;
   }
 

@@ -4,7 +4,6 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "base/decimal.hpp"
@@ -19,6 +18,19 @@ std::optional<double> decimal(std::string_view text) {
   if (text.empty() || number_length(text) != text.size()) return std::nullopt;
   if (text[0] == '+') text.remove_prefix(1);
   return nearest_double(text).value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+/// The parts of "1/9" or "43:1"; of another text itself, over 1.
+struct Fraction {
+  std::string_view above;
+  std::string_view below = "1";
+  bool has_bar = false;
+};
+
+Fraction fraction_in(std::string_view text) {
+  const std::size_t bar = text.find_first_of("/:");
+  if (bar == std::string_view::npos) return {.above = trimmed(text)};
+  return {trimmed(text.substr(0, bar)), trimmed(text.substr(bar + 1)), true};
 }
 
 std::string expectation(const Dimension& expected) {
@@ -99,11 +111,10 @@ std::string escaped(char32_t c) {
 /// Whether `text` is a fraction of two decimals that is not proved to be the shortest decimal of
 /// its double: both and the quotient must be exact in few decimals.
 bool is_inexact_fraction(std::string_view text) {
-  const std::size_t slash = text.find_first_of("/:");
-  if (slash == std::string_view::npos) return false;
-  const std::optional<double> above = decimal(trimmed(text.substr(0, slash)));
-  const std::optional<double> below = decimal(trimmed(text.substr(slash + 1)));
-  if (!above || !below || *below == 0.0) return false;
+  const Fraction fraction = fraction_in(text);
+  const std::optional<double> above = decimal(fraction.above);
+  const std::optional<double> below = decimal(fraction.below);
+  if (!fraction.has_bar || !above || !below || *below == 0.0) return false;
   const double quotient = *above / *below;
   return !is_short_decimal(*above) || !is_short_decimal(*below) || !is_short_decimal(quotient) ||
          std::fma(quotient, *below, -*above) != 0.0;
@@ -118,11 +129,10 @@ std::string_view without_sign(std::string_view text) {
 /// double is 1.
 double not_down_to_one(double value, std::string_view text, int power) {
   if (value != 1.0) return value;
-  const std::size_t slash = text.find_first_of("/:");
-  const std::string_view above = without_sign(trimmed(text.substr(0, slash)));
-  const std::string_view below =
-      slash == std::string_view::npos ? "1" : without_sign(trimmed(text.substr(slash + 1)));
-  return is_above(above, below, power) ? std::nextafter(1.0, 2.0) : 1.0;
+  const Fraction fraction = fraction_in(text);
+  const bool is_larger =
+      is_above(without_sign(fraction.above), without_sign(fraction.below), power);
+  return is_larger ? std::nextafter(1.0, 2.0) : 1.0;
 }
 
 }  // namespace
@@ -186,10 +196,9 @@ double read_number(std::string_view field, std::string_view text) {
   if (trimmed_text == "inf" || trimmed_text == "+inf") {
     return std::numeric_limits<double>::infinity();
   }
-  const std::size_t slash = trimmed_text.find_first_of("/:");
-  const std::optional<double> numerator = decimal(trimmed(trimmed_text.substr(0, slash)));
-  const std::optional<double> denominator =
-      slash == std::string_view::npos ? 1.0 : decimal(trimmed(trimmed_text.substr(slash + 1)));
+  const Fraction fraction = fraction_in(trimmed_text);
+  const std::optional<double> numerator = decimal(fraction.above);
+  const std::optional<double> denominator = decimal(fraction.below);
   if (!numerator || !denominator) {
     refuse(field, text, "must be a number without unit, such as 0.25, 1e-3 or 1/9");
   }

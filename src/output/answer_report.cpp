@@ -4,30 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <ostream>
-#include <vector>
 
 #include "gearlash/output.hpp"
 #include "gearlash/version.hpp"
 #include "model/gains.hpp"
 #include "model/reduced_drive.hpp"
-#include "output/answer_meaning.hpp"
-#include "output/ceiling_report.hpp"
+#include "output/answer_parts.hpp"
 #include "output/change_report.hpp"
 #include "output/columns.hpp"
-#include "output/measured_report.hpp"
 
 namespace gearlash {
 namespace {
-
-constexpr int headline_digits = 3;
-constexpr int table_digits = 6;
-
-using ReportRows = std::vector<std::vector<std::string>>;
-
-std::string number(double value) { return significant(value, table_digits); }
 
 std::string percent(double part, double whole) {
   return fmt::format("{:.1f} %", 100.0 * part / whole);
@@ -38,40 +27,16 @@ double backlash_of(const AnswerReport& report) {
   return report.drive.servo ? report.drive.servo->backlash : report.drive.gearbox.backlash;
 }
 
-/// The report's times and speeds: in units of 1/ω_n without a natural frequency.
-struct Units {
-  explicit Units(const AnswerReport& report) : is_normalized(report.is_normalized) {}
-
-  std::string time(double seconds) const { return time_text(seconds, is_normalized, table_digits); }
-  std::string speed(double value) const {
-    return number(value) + (is_normalized ? " rad ω_n" : " rad/s");
-  }
-  std::string rate(double value) const { return number(value) + (is_normalized ? " ω_n" : " /s"); }
-  std::string energy(double value) const {
-    return number(value) + (is_normalized ? " K rad²" : " J");
-  }
-
-  bool is_normalized;
-};
-
-std::string range_text(const AnswerReport& report, const Bounds& range) {
-  const double low = report.angle.from_radians(range.low);
-  const double high = report.angle.from_radians(range.high);
-  constexpr double unseen = 1e-9;  // relative to the larger; closer ends print as one number
-  if (high - low <= unseen * std::max(std::abs(low), std::abs(high))) {
-    return angle_text(range.low, report.angle, table_digits);
-  }
-  return fmt::format("{} … {} {}", number(low), number(high), report.angle.name);
-}
-
-std::vector<std::string> amplitude_row(const AnswerReport& report, std::string name,
-                                       double amplitude) {
+TextRow amplitude_row(const AnswerReport& report, std::string name, double amplitude) {
+  const AnswerUnits units(report);
   const double backlash = backlash_of(report);
-  return {std::move(name), swing_text(amplitude, report.angle, table_digits),
-          backlash == 0.0 ? "" : number(amplitude / backlash) + " of the backlash"};
+  return {std::move(name), units.swing(amplitude),
+          backlash == 0.0 ? "" : units.number(amplitude / backlash) + " of the backlash"};
 }
 
 // ---- headline -----------------------------------------------------------------------------------
+
+constexpr int headline_digits = 3;
 
 std::string pace(const AnswerReport& report, double period) {
   if (report.is_normalized) {
@@ -89,18 +54,16 @@ std::string quantization_text(const AnswerReport& report, const std::optional<do
 }
 
 std::string motion_text(const AnswerReport& report) {
-  const auto amplitude = [&](double value) {
-    return swing_text(value, report.angle, headline_digits);
-  };
-  const auto of_motor = [&](double value) {
-    return "the motor within the gap, " + amplitude(value);
+  const AnswerUnits units(report, headline_digits);
+  const auto of_motor = [&](double amplitude) {
+    return "the motor within the gap, " + units.swing(amplitude);
   };
   if (const Cycle* cycle = report.answer.largest_stable()) {
     if (is_of_motor_alone(*cycle)) {
       return of_motor(cycle->motor_amplitude) + pace(report, cycle->period) +
              ", while the load stands still";
     }
-    return amplitude(cycle->amplitude) + pace(report, cycle->period) +
+    return units.swing(cycle->amplitude) + pace(report, cycle->period) +
            quantization_text(report, cycle->encoder_steps);
   }
   if (report.answer.irregular.empty()) return "amplitude not known";
@@ -109,7 +72,7 @@ std::string motion_text(const AnswerReport& report) {
   if (motion.is_motor_alone && motion.motor_amplitude) {
     return of_motor(*motion.motor_amplitude) + at + ", while the load hardly moves";
   }
-  return (motion.repeats() ? "" : "up to ") + amplitude(motion.amplitude) + at +
+  return (motion.repeats() ? "" : "up to ") + units.swing(motion.amplitude) + at +
          quantization_text(report, motion.encoder_steps);
 }
 
@@ -125,7 +88,7 @@ std::string steps_text(const AnswerReport& report, const std::string& end) {
   const std::string way = least->direction == 0.0  ? ""
                           : least->direction > 0.0 ? " forward"
                                                    : " backward";
-  return "steps from " + angle_text(least->from, report.angle, headline_digits) + way + " on";
+  return "steps from " + AnswerUnits(report, headline_digits).angle(least->from) + way + " on";
 }
 
 /// μ₀ with enough digits to show on which side of 1 it lies.
@@ -145,12 +108,12 @@ std::string growth_beside_one(const Answer& answer) {
 // ---- cycles, rest, irregular motion -------------------------------------------------------------
 
 /// Adds the proved range if the enclosure is too wide for the table's digits.
-void add_range(ReportRows& rows, const Bounds& range, double scale, const std::string& unit) {
+void add_range(TextRows& rows, const AnswerUnits& units, const Bounds& range, double scale,
+               const std::string& unit) {
   constexpr double unseen = 1e-6;
   if (range.high - range.low <= unseen * range.high) return;
-  rows.push_back(
-      {"  proved",
-       fmt::format("{} … {} {}", number(range.low / scale), number(range.high / scale), unit), ""});
+  rows.push_back({"  proved", fmt::format("{} … {} {}", units.number(range.low / scale),
+                                          units.number(range.high / scale), unit)});
 }
 
 /// A power of ten above the residual: only its order matters, and rounding does not change the
@@ -162,36 +125,30 @@ std::string residual_text(double residual) {
   return "< " + significant(bound, 2);
 }
 
-void add_energy(ReportRows& rows, const EnergyLost& energy, const Units& units) {
+void add_energy(TextRows& rows, const EnergyLost& energy, const AnswerUnits& units) {
   const double total = energy.total();
-  rows.push_back({"energy lost per period", units.energy(total), ""});
+  const auto text = [&](double part) { return units.in(part, " K rad²", " J"); };
+  rows.push_back({"energy lost per period", text(total)});
   const auto share = [&](const char* name, double part) {
-    rows.push_back({name, units.energy(part), percent(part, total)});
+    rows.push_back({name, text(part), percent(part, total)});
   };
   share("  in the motor's friction", energy.motor_friction);
   share("  in the load's friction", energy.load_friction);
   share("  in impacts", energy.impacts);
 }
 
-const char* multiplier_remark(Stability stability) {
-  switch (stability) {
-    case Stability::stable:
-      return "disturbances decay";
-    case Stability::neutral:
-      return "disturbances neither grow nor decay";
-    case Stability::unstable:
-      return "disturbances grow";
-  }
-  return "";
-}
+/// On a multiplier, in the order of Stability.
+constexpr const char* multiplier_remarks[] = {
+    "disturbances decay", "disturbances neither grow nor decay", "disturbances grow"};
 
-void add_contact(ReportRows& rows, const Cycle& cycle, const Answer& answer, const Units& units) {
+void add_contact(TextRows& rows, const Cycle& cycle, const Answer& answer,
+                 const AnswerUnits& units) {
   if (answer.engine != Engine::general) {
     rows.push_back({"impacts", fmt::format("{} per period", cycle.events_per_period),
                     cycle.settles ? "faces stay together" : "faces bounce apart"});
   }
   if (cycle.impact_speed > 0.0) {
-    rows.push_back({"hardest impact", units.speed(cycle.impact_speed), ""});
+    rows.push_back({"hardest impact", units.in(cycle.impact_speed, " rad ω_n", " rad/s")});
   }
   rows.push_back({"faces together", units.time(cycle.engaged_time),
                   percent(cycle.engaged_time, cycle.period) + " of a period"});
@@ -200,33 +157,31 @@ void add_contact(ReportRows& rows, const Cycle& cycle, const Answer& answer, con
 }
 
 std::string cycle_text(const AnswerReport& report, const Cycle& cycle) {
-  const Units units(report);
+  const AnswerUnits units(report);
   const Answer& answer = report.answer;
-  ReportRows rows = {amplitude_row(report, "amplitude, load", cycle.amplitude)};
+  TextRows rows = {amplitude_row(report, "amplitude, load", cycle.amplitude)};
   const bool has_bounds = answer.bounds && answer.bounds->has_cycle;
   if (has_bounds) {
-    add_range(rows, answer.bounds->amplitude, report.angle.radians, report.angle.name);
+    add_range(rows, units, answer.bounds->amplitude, report.angle.radians, report.angle.name);
   }
   rows.push_back(amplitude_row(report, "amplitude, motor", cycle.motor_amplitude));
   if (cycle.center != 0.0) {
-    rows.push_back(
-        {"center, from the reference", angle_text(cycle.center, report.angle, table_digits), ""});
+    rows.push_back({"center, from the reference", units.angle(cycle.center)});
   }
-  rows.push_back({"period", units.time(cycle.period), ""});
+  rows.push_back({"period", units.time(cycle.period)});
   if (has_bounds) {
-    add_range(rows, answer.bounds->period, 1.0, report.is_normalized ? "/ ω_n" : "s");
+    add_range(rows, units, answer.bounds->period, 1.0, report.is_normalized ? "/ ω_n" : "s");
   }
-  rows.push_back(
-      report.is_normalized
-          ? std::vector<std::string>{"frequency",
-                                     number(2.0 * std::numbers::pi / cycle.period) + " ω_n", ""}
-          : std::vector<std::string>{"frequency", number(cycle.frequency()) + " Hz", ""});
-  rows.push_back({"multiplier", number(cycle.multiplier), multiplier_remark(cycle.stability)});
+  rows.push_back({"frequency", report.is_normalized
+                                   ? units.number(2.0 * std::numbers::pi / cycle.period) + " ω_n"
+                                   : units.number(cycle.frequency()) + " Hz"});
+  rows.push_back({"multiplier", units.number(cycle.multiplier),
+                  multiplier_remarks[static_cast<std::size_t>(cycle.stability)]});
   add_contact(rows, cycle, answer, units);
   if (cycle.energy) add_energy(rows, *cycle.energy, units);
   if (answer.engine == Engine::general) {
-    rows.push_back({"events per period", std::to_string(cycle.events_per_period), ""});
-    rows.push_back({"reached from", starts_text(cycle.starts), ""});
+    rows.push_back({"events per period", std::to_string(cycle.events_per_period)});
+    rows.push_back({"reached from", starts_text(cycle.starts)});
   }
   rows.push_back({"residual", residual_text(cycle.residual), "mismatch where the cycle closes"});
   return fmt::format("\nLimit cycle: {}, {}{}\n", name_of(cycle.kind), name_of(cycle.stability),
@@ -237,17 +192,16 @@ std::string cycle_text(const AnswerReport& report, const Cycle& cycle) {
 /// The observable cycles with all their properties, then the unstable ones with one line each.
 std::string cycle_tables(const AnswerReport& report) {
   std::string text;
-  ReportRows unstable;
-  const Units units(report);
+  TextRows unstable;
+  const AnswerUnits units(report);
   for (const Cycle& cycle : report.answer.cycles) {
     if (cycle.stability != Stability::unstable) {
       text += cycle_text(report, cycle);
       continue;
     }
-    unstable.push_back({name_of(cycle.kind),
-                        swing_text(cycle.amplitude, report.angle, table_digits),
+    unstable.push_back({name_of(cycle.kind), units.swing(cycle.amplitude),
                         fmt::format("period {}, multiplier {}", units.time(cycle.period),
-                                    number(cycle.multiplier))});
+                                    units.number(cycle.multiplier))});
   }
   if (unstable.empty()) return text;
   return text + "\nUnstable limit cycles, on which no motion stays\n" + table_text(unstable);
@@ -255,7 +209,7 @@ std::string cycle_tables(const AnswerReport& report) {
 
 std::string irregular_text(const AnswerReport& report, const IrregularMotion& motion) {
   if (!motion.mean_period) return "";  // the headline or the meaning states its extent
-  const Units units(report);
+  const AnswerUnits units(report);
   const auto spread = [](double mean, double deviation) {
     return fmt::format("spread {:.2g} %", 100.0 * deviation / mean);
   };
@@ -263,49 +217,47 @@ std::string irregular_text(const AnswerReport& report, const IrregularMotion& mo
                                 ? "The motor hunts within the gap, while the load hardly moves"
                             : motion.repeats() ? "Motion whose swings repeat"
                                                : "Motion that was not seen to repeat";
-  ReportRows rows = {
-      {amplitude_row(report, "amplitude, load", motion.amplitude)},
-      {amplitude_row(report, "amplitude, motor", *motion.motor_amplitude)},
-      {"center, from the reference", angle_text(motion.center, report.angle, table_digits), ""},
-      {"mean amplitude", swing_text(*motion.mean_amplitude, report.angle, table_digits),
-       spread(*motion.mean_amplitude, *motion.amplitude_deviation)},
-      {"mean period", units.time(*motion.mean_period),
-       spread(*motion.mean_period, *motion.period_deviation)},
-      {"swings repeat to within", fmt::format("{:.2g} %", 100.0 * *motion.mismatch), ""}};
+  TextRows rows = {amplitude_row(report, "amplitude, load", motion.amplitude),
+                   amplitude_row(report, "amplitude, motor", *motion.motor_amplitude),
+                   {"center, from the reference", units.angle(motion.center)},
+                   {"mean amplitude", units.swing(*motion.mean_amplitude),
+                    spread(*motion.mean_amplitude, *motion.amplitude_deviation)},
+                   {"mean period", units.time(*motion.mean_period),
+                    spread(*motion.mean_period, *motion.period_deviation)},
+                   {"swings repeat to within", fmt::format("{:.2g} %", 100.0 * *motion.mismatch)}};
   if (motion.exponent) {
     constexpr double chaotic = 10.0;    // e-foldings of the separation of neighbouring motions
     constexpr double repeating = 1e-3;  // swings that agree to this share repeat
     const bool is_chaotic =
         *motion.exponent * *motion.watched > chaotic && *motion.mismatch > repeating;
-    rows.push_back(
-        {"neighboring motions part at", units.rate(*motion.exponent), is_chaotic ? "chaotic" : ""});
+    rows.push_back({"neighboring motions part at", units.in(*motion.exponent, " ω_n", " /s"),
+                    is_chaotic ? "chaotic" : ""});
   }
-  rows.push_back({"followed for", units.time(*motion.watched), ""});
-  rows.push_back({"reached from", starts_text(motion.starts), ""});
+  rows.push_back({"followed for", units.time(*motion.watched)});
+  rows.push_back({"reached from", starts_text(motion.starts)});
   return "\n" + title + "\n" + table_text(rows);
 }
 
 std::string rest_text(const AnswerReport& report) {
+  const AnswerUnits units(report);
   const Rest& rest = *report.answer.rest;
-  ReportRows rows = {
-      {"load, from the reference", range_text(report, rest.load), ""},
-      {"motor, from the reference", range_text(report, rest.motor), ""},
+  TextRows rows = {
+      {"load, from the reference", units.angles(rest.load)},
+      {"motor, from the reference", units.angles(rest.motor)},
       {"these are",
-       rest.certainty == Certainty::computed ? "the ends of all equilibria" : "where starts led",
-       ""}};
+       rest.certainty == Certainty::computed ? "the ends of all equilibria" : "where starts led"}};
   for (const RestPiece& piece : rest.pieces) {
     if (piece.kind == RestKind::no_limit) continue;
     rows.push_back({piece.kind == RestKind::dead_band ? "load in the dead band"
                     : piece.side > 0.0                ? "load at the limit, forward"
                                                       : "load at the limit, backward",
-                    range_text(report, piece.load), ""});
+                    units.angles(piece.load)});
   }
-  if (rest.starts > 0) rows.push_back({"reached from", starts_text(rest.starts), ""});
+  if (rest.starts > 0) rows.push_back({"reached from", starts_text(rest.starts)});
   if (rest.time) {
-    const Units units(report);
     rows.push_back({"time to rest, longest", units.time(rest.time->longest),
-                    "within " + swing_text(rest.time->band, report.angle, table_digits)});
-    rows.push_back({"time to rest, median", units.time(rest.time->median), ""});
+                    "within " + units.swing(rest.time->band)});
+    rows.push_back({"time to rest, median", units.time(rest.time->median)});
   }
   if (rest.creeping_starts > 0) {
     rows.push_back(
@@ -313,7 +265,7 @@ std::string rest_text(const AnswerReport& report) {
   }
   if (rest.swing_ratio) {
     rows.push_back(
-        {"approached by swings, ratio", number(*rest.swing_ratio), "never quite reached"});
+        {"approached by swings, ratio", units.number(*rest.swing_ratio), "never quite reached"});
   }
   return "\nRest\n" + table_text(rows);
 }
@@ -322,35 +274,36 @@ std::string rest_text(const AnswerReport& report) {
 
 /// The drive as a servo of 1960.
 std::string normal_form_table(const AnswerReport& report) {
+  const AnswerUnits units(report);
   const NormalFormNumbers& form = *report.answer.normal_form;
-  ReportRows rows;
+  TextRows rows;
   if (!report.is_normalized) {
-    rows.push_back({"natural frequency, ω_n", number(form.natural_frequency) + " rad/s",
-                    number(form.natural_frequency / (2.0 * std::numbers::pi)) + " Hz"});
+    rows.push_back({"natural frequency, ω_n", units.number(form.natural_frequency) + " rad/s",
+                    units.number(form.natural_frequency / (2.0 * std::numbers::pi)) + " Hz"});
     if (form.stiffness) {
-      rows.push_back({"loop stiffness, K", number(*form.stiffness) + " N m/rad", ""});
+      rows.push_back({"loop stiffness, K", units.number(*form.stiffness) + " N m/rad"});
     }
   }
-  rows.push_back({"damping, ζ", number(form.damping), ""});
-  rows.push_back({"inertia ratio, J_L/J_M", number(form.inertia_ratio), ""});
-  rows.push_back({"friction ratio, F_L/(F_M+F_L)", number(form.friction_ratio), ""});
-  rows.push_back({"backlash, b", angle_text(form.backlash, report.angle, table_digits),
-                  report.angle.radians == 1.0 ? "" : number(form.backlash) + " rad"});
-  rows.push_back({"restitution, e", number(form.restitution), ""});
+  rows.push_back({"damping, ζ", units.number(form.damping)});
+  rows.push_back({"inertia ratio, J_L/J_M", units.number(form.inertia_ratio)});
+  rows.push_back({"friction ratio, F_L/(F_M+F_L)", units.number(form.friction_ratio)});
+  rows.push_back({"backlash, b", units.angle(form.backlash),
+                  report.angle.radians == 1.0 ? "" : units.number(form.backlash) + " rad"});
+  rows.push_back({"restitution, e", units.number(form.restitution)});
   const auto& growth = report.answer.growth_at_rest;
-  rows.push_back({"growth at rest, μ₀", growth ? number(*growth) : "not known",
+  rows.push_back({"growth at rest, μ₀", growth ? units.number(*growth) : "not known",
                   "of small motion in half a cycle"});
   return "\nServo\n" + table_text(rows);
 }
 
 /// The gains of a torque-controlled drive at both shafts.
 std::string gains_table(const AnswerReport& report) {
-  ReportRows rows;
+  const AnswerUnits units(report);
+  TextRows rows;
   for (const PlacedGain& gain : placed_gains(report.drive)) {
-    const std::string unit = " " + std::string(gain.unit);
     rows.push_back({std::string(gain.path.substr(gain.path.find('.') + 1)),
-                    number(gain.at_joint) + unit + " at the joint",
-                    number(gain.at_motor) + unit + " at the motor"});
+                    fmt::format("{} {} at the joint", units.number(gain.at_joint), gain.unit),
+                    fmt::format("{} {} at the motor", units.number(gain.at_motor), gain.unit)});
   }
   return rows.empty() ? "" : "\nGains, as torque per angle of the same shaft\n" + table_text(rows);
 }
@@ -363,13 +316,21 @@ std::string offer_text(const AnswerReport& report) {
     text += std::string(text.empty() ? "" : "; ") +
             "--sensitivities adds what the amplitude depends on";
   }
-  return text.empty() ? "" : "\n" + wrapped("Not shown: " + text + ".");
+  return further_paragraph(text.empty() ? "" : "Not shown: " + text + ".");
 }
 
 }  // namespace
 
 std::string starts_text(std::size_t count) {
   return fmt::format("{} start{}", count, count == 1 ? "" : "s");
+}
+
+std::string AnswerUnits::angles(const Bounds& range) const {
+  const double low = angle_unit.from_radians(range.low);
+  const double high = angle_unit.from_radians(range.high);
+  constexpr double unseen = 1e-9;  // relative to the larger; closer ends print as one number
+  if (high - low <= unseen * std::max(std::abs(low), std::abs(high))) return angle(range.low);
+  return fmt::format("{} … {} {}", number(low), number(high), angle_unit.name);
 }
 
 bool is_of_motor_alone(const Cycle& cycle) {
@@ -426,7 +387,7 @@ std::string larger_motion(const AnswerReport& report) {
   if (largest.starts == 0 || largest.extent() <= clearly * motions.front().extent()) return "";
   return fmt::format("; {} of {} hunt by {}", largest.starts,
                      starts_text(report.answer.search->starts.size()),
-                     swing_text(largest.extent(), report.angle, headline_digits));
+                     AnswerUnits(report, headline_digits).swing(largest.extent()));
 }
 
 /// What a search leaves open or has found besides: "; 2 of 28 starts run away, 3 undecided".

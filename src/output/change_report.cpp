@@ -8,7 +8,6 @@
 
 #include "output/columns.hpp"
 #include "output/parameter_text.hpp"
-#include "question/axis.hpp"
 
 namespace gearlash {
 namespace {
@@ -60,9 +59,9 @@ std::string combined_text(const HuntingMargin& margin) {
                change_text(combined.factors[i]);
   }
   if (changed == 1) {
-    return "No combined change was found that is smaller than that of one alone: " + changes + ". ";
+    return "No combined change was found that is smaller than that of one alone: " + changes + ".";
   }
-  return "Smallest combined change found: " + changes + ". ";
+  return "Smallest combined change found: " + changes + ".";
 }
 
 std::string undecided_text(const Drive& drive, const HuntingMargin& margin,
@@ -79,27 +78,15 @@ std::string undecided_text(const Drive& drive, const HuntingMargin& margin,
 
 /// What the search leaves open.
 std::string search_text(const Drive& drive, const HuntingMargin& margin, const AngleUnit& angle) {
-  std::string grids;
-  double located = 0.0;
-  for (const ParameterMargin& one : margin.parameters) {
-    if (one.kind != SearchKind::searched) continue;
-    const ParameterText text(drive, one.parameter, angle);
-    grids +=
-        (grids.empty() ? "" : "; ") + fmt::format("{}, {} values", one.parameter, one.grid.size());
-    if (!text.is_word()) {
-      grids += " from " + text.of(one.searched.low) + " to " + text.of(one.searched.high);
-    }
-    located = std::max(located, one.located);
-  }
-  if (grids.empty()) return "";
-  std::string text =
-      "Searched, not proved: a border nearer than the distance of two values tried "
-      "may be missed (" +
-      grids + ").";
-  if (located > 0.0) {
-    text += " Borders are located to " + significant(located, 1) + " of their value.";
-  }
-  return text + undecided_text(drive, margin, angle);
+  SearchedGrids grids(drive, angle);
+  for (const ParameterMargin& one : margin.parameters) grids.add(one);
+  if (grids.text().empty()) return "";
+  const std::string located = grids.located_text("Borders");
+  return "Searched, not proved: a border nearer than the distance of two values tried may be "
+         "missed "
+         "(" +
+         grids.text() + ")." + (located.empty() ? "" : located + ".") +
+         undecided_text(drive, margin, angle);
 }
 
 /// What a scan leaves open, where faces bounce.
@@ -113,13 +100,6 @@ std::string scanned_text(const HuntingMargin& margin) {
              "nearest. "
              "The combined change is the smallest after which rest ") +
          (margin.hunts ? "is stable; hunting may remain beside it." : "is unstable.");
-}
-
-/// "motor amplitude".
-std::string words_of(Quantity quantity) {
-  std::string words(name_of(quantity));
-  std::replace(words.begin(), words.end(), '_', ' ');
-  return words;
 }
 
 }  // namespace
@@ -152,7 +132,7 @@ std::vector<std::size_t> by_falling_effect(const Jacobian& sensitivity) {
 }
 
 std::string margin_text(const Drive& drive, const HuntingMargin& margin, const AngleUnit& angle) {
-  std::vector<std::vector<std::string>> rows = {{"parameter", "now", "down to", "up to"}};
+  TextRows rows = {{"parameter", "now", "down to", "up to"}};
   for (const ParameterMargin& one : margin.parameters) {
     const ParameterText text(drive, one.parameter, angle);
     if (one.choices.empty() && !one.below && !one.above) continue;
@@ -167,17 +147,12 @@ std::string margin_text(const Drive& drive, const HuntingMargin& margin, const A
                                           : "Where it begins to hunt or to run away";
   const std::string nowhere = is_closed ? ": nowhere within a factor of a thousand\n"
                                         : ": nowhere among the values tried\n";
-  std::string rest = combined_text(margin);
-  const auto add = [&](const std::string& more) {
-    if (!more.empty()) rest += (rest.empty() || rest.back() == ' ' ? "" : " ") + more;
-  };
-  if (is_closed) add(overall_text(*margin.overall, margin.hunts));
-  add(scanned_text(margin));
-  add(search_text(drive, margin, angle));
-  if (margin.stopped) add("The search was stopped: what it did not reach is left out.");
   return what + ", one parameter at a time" +
          (rows.size() == 1 ? nowhere : "\n" + table_text(rows)) +
-         (rest.empty() ? "" : wrapped(rest));
+         sentences(
+             {combined_text(margin), is_closed ? overall_text(*margin.overall, margin.hunts) : "",
+              scanned_text(margin), search_text(drive, margin, angle),
+              margin.stopped ? "The search was stopped: what it did not reach is left out." : ""});
 }
 
 std::string sensitivity_text(const Jacobian& sensitivity) {
@@ -188,15 +163,14 @@ std::string sensitivity_text(const Jacobian& sensitivity) {
                                    [](const auto& slope) { return slope.has_value(); });
   if (!has_any) return text;
   std::vector<Quantity> columns;
-  std::vector<std::string> titles = {"number"};
+  TextRows rows = {{"number"}};
   for (const Quantity quantity : sensitivity.quantities) {
     if (quantity == Quantity::period || quantity == Quantity::center) continue;
     columns.push_back(quantity);
-    titles.push_back(words_of(quantity));
+    rows.front().push_back(words_of(quantity));
   }
-  std::vector<std::vector<std::string>> rows = {titles};
   for (const std::size_t parameter : by_falling_effect(sensitivity)) {
-    std::vector<std::string> row = {sensitivity.paths[parameter]};
+    TextRow row = {sensitivity.paths[parameter]};
     bool has_one = false;
     for (const Quantity quantity : columns) {
       const std::optional<double> elasticity = elasticity_of(sensitivity, quantity, parameter);

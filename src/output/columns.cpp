@@ -11,16 +11,16 @@ std::size_t width_in_columns(const std::string& text) {
   }));
 }
 
-std::string table_text(const std::vector<std::vector<std::string>>& rows) {
+std::string table_text(const TextRows& rows) {
   std::vector<std::size_t> widths;
-  for (const std::vector<std::string>& row : rows) {
+  for (const TextRow& row : rows) {
     widths.resize(std::max(widths.size(), row.size()));
     for (std::size_t i = 0; i < row.size(); ++i) {
       widths[i] = std::max(widths[i], width_in_columns(row[i]));
     }
   }
   std::string text;
-  for (const std::vector<std::string>& row : rows) {
+  for (const TextRow& row : rows) {
     std::string line;
     for (std::size_t i = 0; i < row.size(); ++i) {
       line += "  " + row[i] + std::string(widths[i] - width_in_columns(row[i]), ' ');
@@ -31,18 +31,30 @@ std::string table_text(const std::vector<std::vector<std::string>>& rows) {
   return text;
 }
 
-std::string wrapped(const std::string& paragraph, std::size_t columns) {
+std::string wrapped(const std::string& paragraph, std::size_t columns, const std::string& prefix) {
   std::string text;
   std::string line;
   std::istringstream words(paragraph);
   for (std::string word; words >> word;) {
     if (!line.empty() && width_in_columns(line) + 1 + width_in_columns(word) > columns) {
-      text += line + '\n';
+      text += prefix + line + '\n';
       line.clear();
     }
     line += (line.empty() ? "" : " ") + word;
   }
-  return text + line + '\n';
+  return text + prefix + line + '\n';
+}
+
+std::string sentences(const std::vector<std::string>& parts) {
+  std::string paragraph;
+  for (const std::string& part : parts) {
+    if (!part.empty()) paragraph += part + " ";
+  }
+  return paragraph.empty() ? "" : wrapped(paragraph);
+}
+
+std::string further_paragraph(const std::string& paragraph) {
+  return paragraph.empty() ? "" : "\n" + wrapped(paragraph);
 }
 
 }  // namespace gearlash

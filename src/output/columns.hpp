@@ -10,10 +10,21 @@ namespace gearlash {
 /// The number of columns that the text takes; bytes that continue a UTF-8 character take none.
 std::size_t width_in_columns(const std::string& text);
 
-/// Rows of cells in aligned columns, two blanks before each, no blanks at the ends of lines.
-std::string table_text(const std::vector<std::vector<std::string>>& rows);
+/// The cells of rows. A row may end early.
+using TextRow = std::vector<std::string>;
+using TextRows = std::vector<TextRow>;
 
-/// The paragraph broken between words into lines of at most so many columns; ends with a newline.
-std::string wrapped(const std::string& paragraph, std::size_t columns = 92);
+/// Rows of cells in aligned columns, two blanks before each, no blanks at the ends of lines.
+std::string table_text(const TextRows& rows);
+
+/// The paragraph broken between words into lines of at most so many columns, each after a prefix;
+/// ends with a newline.
+inline constexpr std::size_t usual_columns = 92;
+std::string wrapped(const std::string& paragraph, std::size_t columns = usual_columns,
+                    const std::string& prefix = "");
+/// The paragraph of these sentences, of which some may be empty; nothing if all are.
+std::string sentences(const std::vector<std::string>& parts);
+/// An empty line and the paragraph; nothing if it is empty.
+std::string further_paragraph(const std::string& paragraph);
 
 }  // namespace gearlash

@@ -1,7 +1,5 @@
 #include "output/comparison_report.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -43,24 +41,21 @@ ColumnUnit unit_shown(const ComparisonReport& report, Quantity quantity) {
 
 // ---- the table ----------------------------------------------------------------------------------
 
-using TableRow = std::vector<std::string>;
-
 template <class Cell>
-TableRow row_of(const ComparisonReport& report, std::string name, const Cell& cell) {
-  TableRow row = {std::move(name)};
+TextRow row_of(const ComparisonReport& report, std::string name, const Cell& cell) {
+  TextRow row = {std::move(name)};
   for (const ComparedDrive& one : report.drives) row.push_back(one.answer ? cell(one) : nothing);
   return row;
 }
 
-std::string name_with_unit(std::string name, const std::string& unit) {
-  std::replace(name.begin(), name.end(), '_', ' ');
+std::string name_with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : name + " (" + unit + ")";
 }
 
-TableRow row_of(const ComparisonReport& report, Quantity quantity) {
+TextRow row_of(const ComparisonReport& report, Quantity quantity) {
   const ColumnUnit unit = unit_shown(report, quantity);
   const bool is_word = info_of(quantity).kind == QuantityKind::choice;
-  return row_of(report, name_with_unit(std::string(name_of(quantity)), unit.name),
+  return row_of(report, name_with_unit(words_of(quantity), unit.name),
                 [&](const ComparedDrive& one) {
                   const std::optional<double> value = one.answer->value(quantity);
                   if (is_word) return std::string(name_of(one.answer->verdict));
@@ -73,9 +68,9 @@ std::string stability_text(const ComparedDrive& one) {
   return one.answer->loop->is_stable ? "stable" : "not stable";
 }
 
-std::vector<TableRow> rows_of(const ComparisonReport& report) {
+TextRows rows_of(const ComparisonReport& report) {
   const AngleUnit& angle = report.angles.front();
-  std::vector<TableRow> rows = {{report.axis ? report.axis->path : "drive"}};
+  TextRows rows = {{report.axis ? report.axis->path : "drive"}};
   for (const ComparedDrive& one : report.drives) rows.front().push_back(one.name);
   rows.push_back(row_of(report, "certainty", [](const ComparedDrive& one) {
     return std::string(name_of(one.answer->certainty));
@@ -164,17 +159,17 @@ std::string sensor_text(const ComparisonReport& report) {
 }
 
 /// Blocks of as many columns as fit, each with the first one.
-std::string in_blocks(const std::vector<TableRow>& rows) {
+std::string in_blocks(const TextRows& rows) {
   constexpr std::size_t widest = 92;
   const auto width = [&](std::size_t column) {
     std::size_t most = 0;
-    for (const TableRow& row : rows) most = std::max(most, width_in_columns(row[column]));
+    for (const TextRow& row : rows) most = std::max(most, width_in_columns(row[column]));
     return most + 2;
   };
   std::string text;
   for (std::size_t first = 1; first < rows.front().size();) {
-    std::vector<TableRow> block;
-    for (const TableRow& row : rows) block.push_back({row.front()});
+    TextRows block;
+    for (const TextRow& row : rows) block.push_back({row.front()});
     std::size_t taken = width(0);
     do {
       for (std::size_t i = 0; i < rows.size(); ++i) block[i].push_back(rows[i][first]);
@@ -218,7 +213,7 @@ std::vector<NamedDrive> drives_along(const Axis& axis, const Drive& drive, const
 }
 
 std::string comparison_headlines(const ComparisonReport& report) {
-  std::vector<TableRow> rows;
+  TextRows rows;
   for (std::size_t i = 0; i < report.drives.size(); ++i) {
     const bool is_known = report.drives[i].answer.has_value();
     rows.push_back(

@@ -22,21 +22,20 @@ const char* stability(bool stable) { return stable ? "stable" : "unstable"; }
 
 // ---- text ---------------------------------------------------------------------------------------
 
-using Cells = std::vector<std::string>;
-
 std::string with_capital(std::string text) {
   if (text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
   return text;
 }
 
-Cells motion_row(const std::string& name, const ExactMotion& motion, const DescribeReport& report) {
+TextRow motion_row(const std::string& name, const ExactMotion& motion,
+                   const DescribeReport& report) {
   return {name, swing_text(motion.amplitude, report.angle, usual_digits),
           "±" + angle_text(motion.motor_amplitude, report.angle, usual_digits),
           time_text(motion.period, report.is_normalized, usual_digits),
           frequency_text(motion.period, report.is_normalized, usual_digits)};
 }
 
-Cells error_row(const PredictionError& error) {
+TextRow error_row(const PredictionError& error) {
   const auto text = [](double part) { return change_text(1.0 + part); };
   return {"  error", text(error.amplitude), text(error.motor_amplitude), text(error.period),
           text(error.frequency)};
@@ -54,7 +53,7 @@ std::string without_exact(const DescribeReport& report, const std::vector<ExactM
 
 /// Each predicted cycle beside the exact motion that it predicts.
 std::string cycle_table(const DescribingAnalysis& analysis, const DescribeReport& report) {
-  std::vector<Cells> rows = {{"", "amplitude", "motor", "period", "frequency"}};
+  TextRows rows = {{"", "amplitude", "motor", "period", "frequency"}};
   const std::vector<ExactMotion> exact = drive::exact_motions(report.answer);
   for (const DescribedMotion& cycle : analysis.cycles) {
     if (drive::is_unseen(cycle, report.backlash)) continue;
@@ -132,17 +131,6 @@ std::string assumptions_text(const DescribingAnalysis& analysis) {
   return text.empty() ? "" : text + ".";
 }
 
-std::string indented(const std::string& text) {
-  std::string result;
-  std::size_t start = 0;
-  while (start < text.size()) {
-    const std::size_t end = text.find('\n', start);
-    result += "  " + text.substr(start, end - start) + "\n";
-    start = end + 1;
-  }
-  return result;
-}
-
 std::string analysis_text(const DescribingAnalysis& analysis, const DescribeReport& report) {
   std::string text = with_capital(name_of(analysis.part)) + "\n";
   if (!is_in_loop(analysis)) {
@@ -152,7 +140,7 @@ std::string analysis_text(const DescribingAnalysis& analysis, const DescribeRepo
                                               : "  no cycle predicted\n";
   text += "  L(s) " + transfer_text(analysis.loop) + "\n";
   const std::string remarks = unresolved_text(analysis) + assumptions_text(analysis);
-  return remarks.empty() ? text : text + indented(wrapped(remarks));
+  return remarks.empty() ? text : text + wrapped(remarks, usual_columns, "  ");
 }
 
 }  // namespace

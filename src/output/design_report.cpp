@@ -3,16 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "model/reduced_drive.hpp"
 #include "output/columns.hpp"
-#include "output/parameter_text.hpp"
-#include "question/axis.hpp"
 #include "question/change/proved_values.hpp"
-#include "question/change/target.hpp"
 #include "question/series/toleranced_drive.hpp"
 
 namespace gearlash {
@@ -34,7 +30,7 @@ std::string change_between(const std::optional<double>& before,
   return *before == *after ? "0 %" : change_text(*after / *before);
 }
 
-std::vector<std::string> costs_text(const DesignReport& report, const DriveWithValue& one) {
+TextRow costs_text(const DesignReport& report, const DriveWithValue& one) {
   if (const auto& before = report.design.present.answer.normal_form) {
     const NormalFormNumbers after = one.answer.normal_form.value_or(NormalFormNumbers{});
     return {change_between(before->natural_frequency, after.natural_frequency),
@@ -71,29 +67,25 @@ std::string interval_text(const ParameterText& shown, const FeasibleValues& valu
 }
 
 /// The first row of a parameter names it; further rows are alternatives.
-std::vector<std::string> row_text(const DesignReport& report, const DesignedParameter& parameter,
-                                  std::size_t index) {
+TextRow row_text(const DesignReport& report, const DesignedParameter& parameter,
+                 std::size_t index) {
   const FeasibleValues& values = parameter.values;
   const ParameterText text(report.drive, values.parameter, report.angle);
   const DriveWithValue& one = parameter.results[index];
   const bool has_ratio = !text.is_word() && values.present != 0.0 && !std::isnan(values.present);
   const bool is_first = index == 0;
-  std::string change;
-  if (one.value == values.present) {
-    change = "0 %";
-  } else if (has_ratio) {
-    change = change_text(one.value / values.present);
-  }
-  std::vector<std::string> row = {
-      is_first ? values.parameter : "  or", is_first ? text.of(values.present) : "",
-      interval_text(text, values, values.intervals[index]), change, result_of(report, one.answer)};
+  const std::string change = one.value == values.present ? "0 %"
+                             : has_ratio                 ? change_text(one.value / values.present)
+                                                         : "";
+  TextRow row = {is_first ? values.parameter : "  or", is_first ? text.of(values.present) : "",
+                 interval_text(text, values, values.intervals[index]), change,
+                 result_of(report, one.answer)};
   for (std::string& cell : costs_text(report, one)) row.push_back(std::move(cell));
   return row;
 }
 
 std::string table_of_results(const DesignReport& report) {
-  std::vector<std::vector<std::string>> rows = {
-      {"parameter", "now", "meets the target", "change", "result"}};
+  TextRows rows = {{"parameter", "now", "meets the target", "change", "result"}};
   for (std::string& name : names_of_costs(report)) rows.front().push_back(std::move(name));
   for (const DesignedParameter& parameter : report.design.parameters) {
     for (std::size_t i = 0; i < parameter.values.intervals.size(); ++i) {
@@ -144,34 +136,25 @@ std::string reasons(const DesignReport& report) {
   return text.empty() ? "" : "No value meets the target\n" + text + "\n";
 }
 
+/// In the order of BorderKind.
+constexpr const char* border_texts[] = {
+    "the target's limit is reached",
+    "fold at {at}: a stable and an unstable limit cycle meet and end",
+    "branching at {at}: another limit cycle crosses this one",
+    "flip at {at}: a limit cycle of twice the period begins",
+    "Neimark–Sacker bifurcation at {at}: a limit cycle gives way to motion on a torus",
+    "grazing at {at}: a limit cycle touches \"{event}\"",
+    "the period of a limit cycle grows beyond all bounds near {at}",
+    "starts that lead to rest appear or vanish",
+    "the motion changes; no limit cycle that was followed accounts for it"};
+
 std::string border_text(const ParameterText& shown, const Border& border) {
-  const std::string at = shown.of(border.at);
-  switch (border.kind) {
-    case BorderKind::limit:
-      return "the target's limit is reached";
-    case BorderKind::fold:
-      return "fold at " + at + ": a stable and an unstable limit cycle meet and end";
-    case BorderKind::branching:
-      return "branching at " + at + ": another limit cycle crosses this one";
-    case BorderKind::flip:
-      return "flip at " + at + ": a limit cycle of twice the period begins";
-    case BorderKind::neimark_sacker:
-      return "Neimark–Sacker bifurcation at " + at +
-             ": a limit cycle gives way to motion on a torus";
-    case BorderKind::grazing:
-      return "grazing at " + at + ": a limit cycle touches \"" + border.event + "\"";
-    case BorderKind::endless_period:
-      return "the period of a limit cycle grows beyond all bounds near " + at;
-    case BorderKind::rest:
-      return "starts that lead to rest appear or vanish";
-    case BorderKind::unnamed:
-      break;
-  }
-  return "the motion changes; no limit cycle that was followed accounts for it";
+  return fmt::format(fmt::runtime(border_texts[static_cast<std::size_t>(border.kind)]),
+                     fmt::arg("at", shown.of(border.at)), fmt::arg("event", border.event));
 }
 
 std::string borders_text(const DesignReport& report) {
-  std::vector<std::vector<std::string>> rows;
+  TextRows rows;
   for (const DesignedParameter& parameter : report.design.parameters) {
     const ParameterText shown(report.drive, parameter.values.parameter, report.angle);
     for (const Border& border : parameter.values.borders) {
@@ -242,9 +225,7 @@ std::string proofs_text(const DesignReport& report) {
 std::string names_of(const Target& limits) {
   std::string names;
   for (const QuantityLimit& limit : limits.limits) {
-    std::string name(name_of(limit.quantity));
-    std::replace(name.begin(), name.end(), '_', ' ');
-    names += (names.empty() ? "" : ", ") + name;
+    names += (names.empty() ? "" : ", ") + words_of(limit.quantity);
   }
   return names;
 }
@@ -300,27 +281,15 @@ std::string scanned_text(const DesignReport& report) {
 }
 
 std::string search_text(const DesignReport& report) {
-  std::string grids;
-  double located = 0.0;
-  for (const DesignedParameter& parameter : report.design.parameters) {
-    const FeasibleValues& values = parameter.values;
-    if (values.kind != SearchKind::searched) continue;
-    const ParameterText shown(report.drive, values.parameter, report.angle);
-    grids += (grids.empty() ? "" : "; ") +
-             fmt::format("{}, {} values", values.parameter, values.grid.size());
-    if (!shown.is_word()) {
-      grids += " from " + shown.of(values.searched.low) + " to " + shown.of(values.searched.high);
-    }
-    located = std::max(located, values.located);
-  }
-  if (grids.empty()) return "";
+  SearchedGrids grids(report.drive, report.angle);
+  for (const DesignedParameter& parameter : report.design.parameters) grids.add(parameter.values);
+  if (grids.text().empty()) return "";
   std::string text =
       "Searched, not proved: at each value of a grid the drive was followed from many starts, or "
       "from a few where values on both sides miss the target (" +
-      grids + "). What is narrower than the distance of two values may be missed.";
-  if (located > 0.0) {
-    text += " Ends of intervals are located to " + significant(located, 1) +
-            " of their value, by following the drive from value to value, and were searched again.";
+      grids.text() + "). What is narrower than the distance of two values may be missed.";
+  if (const std::string located = grids.located_text("Ends of intervals"); !located.empty()) {
+    text += located + ", by following the drive from value to value, and were searched again.";
   }
   const std::string open = undecided_parts(report, SearchKind::searched);
   return open.empty() ? text : text + " Undecided: " + open + ".";
@@ -339,21 +308,19 @@ std::string within_text(const DesignReport& report) {
   return "";
 }
 
-std::string certainty(const DesignReport& report) {
+std::string stopped_searches(const DesignReport& report) {
   std::string text;
-  const auto add = [&](const std::string& sentence) {
-    if (!sentence.empty()) text += (text.empty() ? "" : " ") + sentence;
-  };
-  add(certified_text(report));
-  add(scanned_text(report));
-  add(search_text(report));
-  add(within_text(report));
   for (const DesignedParameter& parameter : report.design.parameters) {
     if (!parameter.values.stopped) continue;
-    add("The search over " + parameter.values.parameter +
-        " was stopped: the values that it did not reach are undecided.");
+    text += "The search over " + parameter.values.parameter +
+            " was stopped: the values that it did not reach are undecided. ";
   }
   return text;
+}
+
+std::string certainty(const DesignReport& report) {
+  return certified_text(report) + " " + scanned_text(report) + " " + search_text(report) + " " +
+         within_text(report) + " " + stopped_searches(report);
 }
 
 }  // namespace

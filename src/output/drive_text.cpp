@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <sstream>
 
 #include "base/decimal.hpp"
+#include "base/overloaded.hpp"
 #include "base/range_check.hpp"
-#include "general/assemble/time_scale.hpp"
 #include "input/utf8.hpp"
-#include "model/firmware.hpp"
-#include "model/gains.hpp"
 #include "model/parameters.hpp"
 #include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
@@ -64,28 +61,37 @@ Decimals decimals_of(const Parameter& parameter, const Drive& drive) {
   return is_rounded ? Decimals::rounded : Decimals::shortest;
 }
 
+ParameterValue value_of(const Parameter& parameter, const Drive& drive) {
+  const Slot slot = parameter.slot(const_cast<Drive&>(drive));
+  if (const auto* choice = std::get_if<Choice>(&slot)) {
+    return std::string(parameter.choices[choice->chosen(drive)]);
+  }
+  if (auto* const* list = std::get_if<std::vector<double>*>(&slot)) return **list;
+  if (auto* const* rows = std::get_if<Rows*>(&slot)) return **rows;
+  if (auto* const* text = std::get_if<std::string*>(&slot)) return as_utf8(**text);
+  const std::optional<double> number = number_in(parameter, drive);
+  return number ? ParameterValue(*number) : ParameterValue();
+}
+
+std::string text_of_rows(const Rows& rows, Decimals decimals) {
+  std::string text = "[";
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    text += (i == 0 ? "" : ", ") + list_text(rows[i], decimals);
+  }
+  return text + "]";
+}
+
 /// The value as TOML; empty if it is not given and has no default.
 std::string value_text(const Parameter& parameter, const Drive& drive) {
-  const Slot slot = parameter.slot(const_cast<Drive&>(drive));
   const Decimals decimals = decimals_of(parameter, drive);
-  if (const auto* choice = std::get_if<Choice>(&slot)) {
-    return toml_text(parameter.choices[choice->chosen(drive)]);
-  }
-  if (auto* const* list = std::get_if<std::vector<double>*>(&slot)) {
-    return list_text(**list, decimals);
-  }
-  if (auto* const* text = std::get_if<std::string*>(&slot)) {
-    return (*text)->empty() ? "" : toml_text(**text);
-  }
-  if (auto* const* rows = std::get_if<Rows*>(&slot)) {
-    std::string text = "[";
-    for (std::size_t i = 0; i < (*rows)->size(); ++i) {
-      text += (i == 0 ? "" : ", ") + list_text((**rows)[i], decimals);
-    }
-    return text + "]";
-  }
-  const std::optional<double> number = number_in(parameter, drive);
-  return number ? number_text(*number, parameter.dimension(drive), decimals) : "";
+  return std::visit(
+      Overloaded{
+          [](std::monostate) { return std::string(); },
+          [&](double number) { return number_text(number, parameter.dimension(drive), decimals); },
+          [](const std::string& text) { return text.empty() ? "" : toml_text(text); },
+          [&](const std::vector<double>& list) { return list_text(list, decimals); },
+          [&](const Rows& rows) { return text_of_rows(rows, decimals); }},
+      value_of(parameter, drive));
 }
 
 const Distribution* distribution_of(const Parameter& parameter, const TolerancedDrive& drive) {
@@ -127,18 +133,6 @@ std::string toleranced_text(const Distribution& varies, const Parameter& paramet
   return fmt::format("{{ lots = [{}] }}", lots);
 }
 
-ParameterValue value_of(const Parameter& parameter, const Drive& drive) {
-  const Slot slot = parameter.slot(const_cast<Drive&>(drive));
-  if (const auto* choice = std::get_if<Choice>(&slot)) {
-    return std::string(parameter.choices[choice->chosen(drive)]);
-  }
-  if (auto* const* list = std::get_if<std::vector<double>*>(&slot)) return **list;
-  if (auto* const* rows = std::get_if<Rows*>(&slot)) return **rows;
-  if (auto* const* text = std::get_if<std::string*>(&slot)) return as_utf8(**text);
-  const std::optional<double> number = number_in(parameter, drive);
-  return number ? ParameterValue(*number) : ParameterValue();
-}
-
 /// A drive with the same parts and kinds, and defaults for everything else.
 Drive with_defaults(const Drive& drive) {
   Drive fresh;
@@ -154,10 +148,6 @@ Drive with_defaults(const Drive& drive) {
   }
   return fresh;
 }
-
-}  // namespace
-
-namespace {
 
 enum class Followers : bool { left_out, written };
 
@@ -233,14 +223,6 @@ std::vector<std::string> defaults_taken(const Drive& drive) {
 
 namespace {
 
-/// Text as lines of comments.
-std::string remark_of(const std::string& text) {
-  std::istringstream lines(wrapped(text));
-  std::string remark;
-  for (std::string line; std::getline(lines, line);) remark += "# " + line + "\n";
-  return remark;
-}
-
 /// The gains at both shafts, and what the drive's answers note.
 std::string further_remarks(const Drive& drive) {
   std::string gains;
@@ -249,8 +231,8 @@ std::string further_remarks(const Drive& drive) {
                          gains.empty() ? "Gains:" : ";", gain.path.substr(gain.path.find('.') + 1),
                          gain.at_joint, gain.unit, gain.at_motor, gain.unit);
   }
-  std::string remarks = gains.empty() ? "" : remark_of(gains + ".");
-  for (const Note& note : notes_on(drive)) remarks += remark_of(note.text);
+  std::string remarks = gains.empty() ? "" : wrapped(gains + ".", usual_columns, "# ");
+  for (const Note& note : notes_on(drive)) remarks += wrapped(note.text, usual_columns, "# ");
   return remarks;
 }
 

@@ -1,6 +1,7 @@
-// Protecting files from other programs and from power failures.
+// Protecting files from other programs, from signals and from power failures.
 #pragma once
 
+#include <csignal>
 #include <filesystem>
 
 namespace gearlash {
@@ -19,5 +20,22 @@ std::filesystem::path folder_of(const std::filesystem::path& file);
 
 /// Writes the names of a folder's files to the disk (fsync), if the system supports that.
 void bring_names_to_disk(const std::filesystem::path& folder);
+
+/// Blocks signals in this thread while it lives, so that making something and recording it for
+/// removal are not separated.
+class SignalsHeld {
+ public:
+  SignalsHeld() {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before_);
+  }
+  ~SignalsHeld() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsHeld(const SignalsHeld&) = delete;
+  SignalsHeld& operator=(const SignalsHeld&) = delete;
+
+ private:
+  sigset_t before_{};
+};
 
 }  // namespace gearlash

@@ -1,5 +1,7 @@
 #include "output/grid_description.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "gearlash/parameter.hpp"
@@ -9,29 +11,6 @@
 #include "question/family/evaluation.hpp"
 
 namespace gearlash {
-namespace {
-
-/// The words of an axis in the order of their numbers: "load motor".
-std::string text_of_choices(const Parameter& parameter) {
-  std::string words;
-  for (const std::string_view word : parameter.choices) {
-    words += (words.empty() ? "" : " ") + std::string(word);
-  }
-  return words;
-}
-
-void describe_axis(NetcdfFile& file, const Axis& axis, const Grid& grid,
-                   NetcdfDimension dimension) {
-  const NamedParameter parameter = named_parameter(axis, grid.drive);
-  const NetcdfVariable variable =
-      file.add_numbers(parameter.name, {dimension}, parameter.meaning, parameter.unit);
-  file.set_attribute(variable, "path", parameter.path);
-  file.set_attribute(variable, "spacing", spacing_of(axis));
-  if (!parameter.words.empty()) file.set_attribute(variable, "words", parameter.words);
-}
-
-}  // namespace
-
 NamedParameter named_parameter(const Axis& axis, const Drive& drive) {
   const Parameter& parameter = *parameter_of(axis, drive);
   const std::string unit = unit_of(axis, drive);
@@ -39,7 +18,7 @@ NamedParameter named_parameter(const Axis& axis, const Drive& drive) {
           .path = axis.path,
           .meaning = std::string(parameter.meaning),
           .unit = unit.empty() ? "1" : unit,
-          .words = text_of_choices(parameter)};
+          .words = fmt::format("{}", fmt::join(parameter.choices, " "))};
 }
 
 std::string spacing_of(const Axis& axis) { return axis.logarithmic ? "logarithmic" : "linear"; }
@@ -76,7 +55,12 @@ std::vector<NetcdfDimension> describe_axes(NetcdfFile& file, const Grid& grid) {
     dimensions.push_back(file.add_dimension(column_name(axis.path), axis.values.size()));
   }
   for (std::size_t i = 0; i < grid.axes.size(); ++i) {
-    describe_axis(file, grid.axes[i], grid, dimensions[i]);
+    const NamedParameter parameter = named_parameter(grid.axes[i], grid.drive);
+    const NetcdfVariable variable =
+        file.add_numbers(parameter.name, {dimensions[i]}, parameter.meaning, parameter.unit);
+    file.set_attribute(variable, "path", parameter.path);
+    file.set_attribute(variable, "spacing", spacing_of(grid.axes[i]));
+    if (!parameter.words.empty()) file.set_attribute(variable, "words", parameter.words);
   }
   return dimensions;
 }
@@ -93,18 +77,23 @@ std::string describe_fixed_numbers(NetcdfFile& file, const Grid& grid) {
 
 void write_parameters(NetcdfFile& file, const Grid& grid) {
   for (const Axis& axis : grid.axes) {
-    file.write(file.variable(column_name(axis.path)), {0}, {axis.values.size()}, axis.values);
+    file.write(file.variable(column_name(axis.path)), {{0}, {axis.values.size()}}, axis.values);
   }
   for (const FixedNumber& number : fixed_numbers(grid)) {
-    file.write(file.variable(number.parameter.name), {}, {}, std::span(&number.value, 1));
+    file.write(file.variable(number.parameter.name), NetcdfBox{}, std::span(&number.value, 1));
   }
+}
+
+std::string one_word(std::string_view words) {
+  std::string word(words);
+  std::replace(word.begin(), word.end(), ' ', '_');
+  return word;
 }
 
 std::vector<std::string> verdict_words() {
   std::vector<std::string> words;
   for (int number = 0; number <= static_cast<int>(Verdict::undecided); ++number) {
-    words.emplace_back(name_of(static_cast<Verdict>(number)));
-    std::replace(words.back().begin(), words.back().end(), ' ', '_');
+    words.push_back(one_word(name_of(static_cast<Verdict>(number))));
   }
   return words;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct GridContents {
 /// Names and texts, the same for equal contents.
 std::vector<std::pair<std::string, std::string>> attributes_of_file(const GridContents& contents);
 
+/// "cannot hunt" is "cannot_hunt", as the words of flags must be.
+std::string one_word(std::string_view words);
 /// "cannot_hunt", "hunts", … in the order of the enumeration.
 std::vector<std::string> verdict_words();
 

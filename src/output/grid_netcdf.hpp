@@ -9,16 +9,23 @@
 #include <vector>
 
 #include "output/grid_description.hpp"
-#include "output/grid_netcdf_file.hpp"
 #include "output/writing_process.hpp"
 #include "question/map/grid_pieces.hpp"
 #include "question/map/map_regions.hpp"
 
 namespace gearlash {
 
-/// A GridNetcdfFile in a child process, because HDF5 (1.10.8) crashes or ends the program where
-/// some of its calls or allocations fail. A crash is an OutputError here. One thread at a time may
-/// call its members.
+/// A file that is being written. Each axis is a dimension, named as its column (column_name()),
+/// with the axis's values or the words of its choices. Over all dimensions the file has the verdict
+/// as flags and each quantity, NaN where it is not known. It also has the drive's other numbers,
+/// the drive as TOML, and the command and version of Gearlash. Variables have a long_name and SI
+/// units as UDUNITS spells them. The boundary is a list of points with NaN between curves. The file
+/// follows the CF conventions 1.8. The same grid gives the same bytes, however the writing is
+/// divided.
+///
+/// It is written by a child process, because HDF5 (1.10.8) crashes or ends the program where some
+/// of its calls or allocations fail. A crash is an OutputError here. One thread at a time may call
+/// its members.
 ///
 /// Every member throws OutputError, naming the file as `shown_name`, if the file cannot be written.
 /// create() and reopen() also throw what WritingProcess throws.
@@ -40,7 +47,7 @@ class GridNetcdf {
   /// Writes the boundary of a map with the axes y and x. Call it once. Without a curve it writes
   /// nothing.
   void write_boundary(const std::vector<MapCurve>& boundary);
-  /// Writes whether each point meets a target. Call it once, on a file of create().
+  /// Writes whether each point meets a target, as flags. Call it once, on a file of create().
   void write_target(std::span<const PlaceKind> kinds);
   /// Writes everything to the disk (fsync).
   void flush();
@@ -48,8 +55,8 @@ class GridNetcdf {
   void close();
 
  private:
-  using Open = std::function<GridNetcdfFile()>;
-  GridNetcdf(const std::string& shown_name, const GridContents& contents, const Open& open);
+  GridNetcdf(const std::string& shown_name, const GridContents& contents,
+             const std::function<Server()>& begin);
 
   Grid grid_;
   std::vector<Quantity> quantities_;

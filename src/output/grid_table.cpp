@@ -1,7 +1,6 @@
 #include "output/grid_table.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "output/csv_table.hpp"
 #include "question/map/hunting_boundary.hpp"

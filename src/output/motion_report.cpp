@@ -1,6 +1,5 @@
 #include "output/motion_report.hpp"
 
-#include <string>
 #include <vector>
 
 #include "base/decimal_multiples.hpp"

@@ -80,24 +80,22 @@ void NetcdfFile::require(Call call, Arguments... arguments) const {
   if (status != NC_NOERR) refuse(shown_name_, status, errno);
 }
 
-NetcdfFile NetcdfFile::create(const std::filesystem::path& path, std::string shown_name) {
+template <class Call>
+NetcdfFile NetcdfFile::opened(Call call, const std::filesystem::path& path, std::string shown_name,
+                              int mode) {
   int id = 0;
   errno = 0;
-  const int status = nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &id);
+  const int status = call(path.c_str(), mode, &id);
   if (status != NC_NOERR) refuse(shown_name, status, errno);
   return {id, path, std::move(shown_name)};
 }
 
-NetcdfFile NetcdfFile::open(const std::filesystem::path& path, std::string shown_name, int mode) {
-  int id = 0;
-  errno = 0;
-  const int status = nc_open(path.c_str(), mode, &id);
-  if (status != NC_NOERR) refuse(shown_name, status, errno);
-  return {id, path, std::move(shown_name)};
+NetcdfFile NetcdfFile::create(const std::filesystem::path& path, std::string shown_name) {
+  return opened(nc_create, path, std::move(shown_name), NC_NETCDF4 | NC_CLOBBER);
 }
 
 NetcdfFile NetcdfFile::reopen(const std::filesystem::path& path, std::string shown_name) {
-  return open(path, std::move(shown_name), NC_WRITE);
+  return opened(nc_open, path, std::move(shown_name), NC_WRITE);
 }
 
 NetcdfDimension NetcdfFile::add_dimension(const std::string& name, std::size_t length) {
@@ -163,7 +161,7 @@ void NetcdfFile::set_attribute_of_file(const std::string& name, const std::strin
 
 void NetcdfFile::end_description() {
   require(nc_enddef);
-  const NetcdfFile found = open(path_, shown_name_, NC_NOWRITE);
+  const NetcdfFile found = opened(nc_open, path_, shown_name_, NC_NOWRITE);
   for (const Attribute& attribute : attributes_) {
     std::size_t length = 0;
     found.require(nc_inq_attlen, attribute.variable, attribute.name.c_str(), &length);
@@ -180,24 +178,24 @@ NetcdfVariable NetcdfFile::variable(const std::string& name) const {
   return variable;
 }
 
-void NetcdfFile::write(NetcdfVariable variable, const std::vector<std::size_t>& start,
-                       const std::vector<std::size_t>& extent, std::span<const double> values) {
-  require(nc_put_vara_double, variable, start.data(), extent.data(), values.data());
+void NetcdfFile::write(NetcdfVariable variable, const NetcdfBox& box,
+                       std::span<const double> values) {
+  require(nc_put_vara_double, variable, box.start.data(), box.extent.data(), values.data());
 }
 
-void NetcdfFile::write(NetcdfVariable variable, const std::vector<std::size_t>& start,
-                       const std::vector<std::size_t>& extent, std::span<const signed char> flags) {
-  require(nc_put_vara_schar, variable, start.data(), extent.data(), flags.data());
+void NetcdfFile::write(NetcdfVariable variable, const NetcdfBox& box,
+                       std::span<const signed char> flags) {
+  require(nc_put_vara_schar, variable, box.start.data(), box.extent.data(), flags.data());
 }
 
-void NetcdfFile::read(NetcdfVariable variable, const std::vector<std::size_t>& start,
-                      const std::vector<std::size_t>& extent, std::span<double> values) const {
-  require(nc_get_vara_double, variable, start.data(), extent.data(), values.data());
+void NetcdfFile::read(NetcdfVariable variable, const NetcdfBox& box,
+                      std::span<double> values) const {
+  require(nc_get_vara_double, variable, box.start.data(), box.extent.data(), values.data());
 }
 
-void NetcdfFile::read(NetcdfVariable variable, const std::vector<std::size_t>& start,
-                      const std::vector<std::size_t>& extent, std::span<signed char> flags) const {
-  require(nc_get_vara_schar, variable, start.data(), extent.data(), flags.data());
+void NetcdfFile::read(NetcdfVariable variable, const NetcdfBox& box,
+                      std::span<signed char> flags) const {
+  require(nc_get_vara_schar, variable, box.start.data(), box.extent.data(), flags.data());
 }
 
 std::string NetcdfFile::attribute_of_file(const std::string& name) const {

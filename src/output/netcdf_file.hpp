@@ -13,6 +13,12 @@ namespace gearlash {
 using NetcdfDimension = int;
 using NetcdfVariable = int;
 
+/// A box of indices: its start and extent in each dimension.
+struct NetcdfBox {
+  std::vector<std::size_t> start;
+  std::vector<std::size_t> extent;
+};
+
 /// Every member throws OutputError, naming the file as `shown_name`, if the library reports an
 /// error (disk full, no permission, a file of another layout).
 ///
@@ -49,17 +55,13 @@ class NetcdfFile {
   void resume_description();
 
   NetcdfVariable variable(const std::string& name) const;
-  /// Writes the values of a box of indices, the last index fastest.
-  void write(NetcdfVariable variable, const std::vector<std::size_t>& start,
-             const std::vector<std::size_t>& extent, std::span<const double> values);
-  void write(NetcdfVariable variable, const std::vector<std::size_t>& start,
-             const std::vector<std::size_t>& extent, std::span<const signed char> flags);
+  /// Writes the values of a box, the last index fastest.
+  void write(NetcdfVariable variable, const NetcdfBox& box, std::span<const double> values);
+  void write(NetcdfVariable variable, const NetcdfBox& box, std::span<const signed char> flags);
 
   // Reads values back.
-  void read(NetcdfVariable variable, const std::vector<std::size_t>& start,
-            const std::vector<std::size_t>& extent, std::span<double> values) const;
-  void read(NetcdfVariable variable, const std::vector<std::size_t>& start,
-            const std::vector<std::size_t>& extent, std::span<signed char> flags) const;
+  void read(NetcdfVariable variable, const NetcdfBox& box, std::span<double> values) const;
+  void read(NetcdfVariable variable, const NetcdfBox& box, std::span<signed char> flags) const;
   std::string attribute_of_file(const std::string& name) const;
 
   /// Advises the system to begin writing to the disk, without waiting. This shortens a later
@@ -74,7 +76,9 @@ class NetcdfFile {
   NetcdfFile(int id, std::filesystem::path path, std::string shown_name)
       : id_(id), path_(std::move(path)), shown_name_(std::move(shown_name)) {}
 
-  static NetcdfFile open(const std::filesystem::path& path, std::string shown_name, int mode);
+  template <class Call>
+  static NetcdfFile opened(Call call, const std::filesystem::path& path, std::string shown_name,
+                           int mode);
 
   template <class Call, class... Arguments>
   void require(Call call, Arguments... arguments) const;

@@ -15,7 +15,6 @@
 
 #include "input/units.hpp"
 #include "output/file_safety.hpp"
-#include "output/signals_held.hpp"
 #include "output/writing_process.hpp"
 
 namespace gearlash {

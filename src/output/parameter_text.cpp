@@ -1,5 +1,7 @@
 #include "output/parameter_text.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <utility>
 
@@ -45,6 +47,23 @@ std::string ParameterText::of(const Bounds& interval) const {
   if (interval.low == interval.high) return of(interval.low);
   return significant(rounded_up(interval.low / size_, digits), digits) + " to " +
          with_unit(significant(rounded_down(interval.high / size_, digits), digits));
+}
+
+void SearchedGrids::add(const std::string& parameter, std::size_t count, const Bounds& range) {
+  const ParameterText shown(drive_, parameter, angle_);
+  text_ += fmt::format("{}{}, {} values", text_.empty() ? "" : "; ", parameter, count);
+  if (!shown.is_word()) text_ += " from " + shown.of(range.low) + " to " + shown.of(range.high);
+}
+
+std::string SearchedGrids::located_text(const std::string& ends) const {
+  if (!(located_ > 0.0)) return "";
+  return " " + ends + " are located to " + significant(located_, 1) + " of their value";
+}
+
+std::string words_of(Quantity quantity) {
+  std::string words(name_of(quantity));
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
 }
 
 std::string result_text(const Answer& answer, const AngleUnit& angle, bool is_normalized) {

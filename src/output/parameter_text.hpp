@@ -1,11 +1,13 @@
 // Values of one parameter of a drive, and what the drive does, as they stand in tables.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "gearlash/answer.hpp"
+#include "gearlash/design.hpp"
 #include "output/report_units.hpp"
 #include "question/axis.hpp"
 
@@ -52,6 +54,36 @@ class ParameterText {
   std::string unit_;
   double size_ = 1.0;  ///< of the unit, in SI
 };
+
+/// The grids of values that a search tried, of the parameters that were searched value by value.
+class SearchedGrids {
+ public:
+  SearchedGrids(const Drive& drive, const AngleUnit& angle) : drive_(drive), angle_(angle) {}
+
+  /// `searched`: FeasibleValues or a ParameterMargin.
+  template <class Searched>
+  void add(const Searched& searched) {
+    if (searched.kind != SearchKind::searched) return;
+    add(searched.parameter, searched.grid.size(), searched.searched);
+    located_ = std::max(located_, searched.located);
+  }
+
+  /// "gearbox.ratio, 25 values from 1 to 100; controller.kind, 2 values"; empty without one.
+  const std::string& text() const { return text_; }
+  /// " Ends are located to 1e-06 of their value"; empty where none is located.
+  std::string located_text(const std::string& ends) const;
+
+ private:
+  void add(const std::string& parameter, std::size_t count, const Bounds& range);
+
+  const Drive& drive_;
+  const AngleUnit& angle_;
+  std::string text_;
+  double located_ = 0.0;
+};
+
+/// "motor amplitude".
+std::string words_of(Quantity quantity);
 
 /// "hunts: motor ±0.218 deg at 0.261 Hz": the verdict and the largest motion, of the motor where it
 /// hunts within the gap; the growth at rest of what cannot hunt. A normal form has no frequencies.

@@ -1,7 +1,6 @@
 // The units of results: those of the servo's author if they are known.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "input/units.hpp"

@@ -16,8 +16,6 @@ namespace {
 /// Two standard errors: about 95 % of such intervals contain the true value.
 constexpr double bar = 2.0;
 
-using Row = std::vector<std::string>;
-
 /// Whether text has frequencies: a normal form without a natural frequency has none.
 bool has_frequency(const ToleranceReport& report) { return !is_normalized(report.drive.nominal); }
 
@@ -53,27 +51,34 @@ std::string frequency_text(const std::optional<Estimate>& estimate) {
   return estimate ? significant(estimate->value, usual_digits) + " Hz" : "none";
 }
 
-std::vector<Row> headline_rows(const ToleranceReport& report) {
-  const ToleranceStudy& study = report.study;
-  const std::size_t samples = study.sampling.samples();
-  std::vector<Row> rows = {{"hunt", percent_text(study.hunting, samples)}};
+/// The shares that hunt and that meet the target, each as `text` shows it.
+template <class Text>
+TextRows share_rows(const ToleranceReport& report, const Text& text) {
+  TextRows rows = {{"hunt", text(report.study.hunting)}};
   if (!report.target_text.empty()) {
-    rows.push_back({"meet \"" + report.target_text + "\"", percent_text(study.yield, samples)});
+    rows.push_back({"meet \"" + report.target_text + "\"", text(report.study.yield)});
   }
+  return rows;
+}
+
+TextRows headline_rows(const ToleranceReport& report) {
+  const ToleranceStudy& study = report.study;
+  TextRows rows = share_rows(
+      report, [&](const Estimate& share) { return percent_text(share, study.sampling.samples()); });
   rows.push_back(
       {amplitude_name(report) + ", mean of all", amplitude_text(study.mean_amplitude, report)});
   return rows;
 }
 
-std::vector<Row> quantile_rows(const ToleranceReport& report) {
+TextRows quantile_rows(const ToleranceReport& report) {
   const ToleranceStudy& study = report.study;
-  std::vector<Row> rows = {
+  TextRows rows = {
       {"share of samples up to", amplitude_name(report), "amplitude, of those that hunt"}};
   if (has_frequency(report)) rows.front().emplace_back("frequency");
   for (std::size_t i = 0; i < study.amplitude.size(); ++i) {
-    Row row = {significant(100.0 * study.amplitude[i].share, usual_digits) + " %",
-               amplitude_text(study.amplitude[i].value, report),
-               amplitude_text(study.amplitude_of_hunting[i].value, report)};
+    TextRow row = {significant(100.0 * study.amplitude[i].share, usual_digits) + " %",
+                   amplitude_text(study.amplitude[i].value, report),
+                   amplitude_text(study.amplitude_of_hunting[i].value, report)};
     if (has_frequency(report)) row.push_back(frequency_text(study.frequency[i].value));
     rows.push_back(std::move(row));
   }
@@ -140,8 +145,8 @@ std::string worst_number_text(const WorstNumber& worst, const ToleranceReport& r
   return number_text(worst.path, worst.value, report) + ", " + name_of(worst.place);
 }
 
-std::vector<Row> number_rows(const ToleranceReport& report) {
-  std::vector<Row> rows = {
+TextRows number_rows(const ToleranceReport& report) {
+  TextRows rows = {
       {"parameter", "varies", "amplitude", "in all", "hunting", "in all", "worst sample"}};
   for (std::size_t i = 0; i < report.drive.varied.size(); ++i) {
     const ParameterTolerance& varied = report.drive.varied[i];
@@ -180,7 +185,7 @@ std::string worst_text(const ToleranceReport& report) {
             "standard deviations."
           : ". A climbing search found it, with unlimited normal distributions cut at three "
             "standard deviations.";
-  return wrapped(text + how);
+  return further_paragraph(text + how);
 }
 
 bool has_limit(const Drive& drive) {
@@ -192,8 +197,8 @@ std::string proved_text(const ToleranceReport& report) {
   const EnclosedCeiling& proved = report.proved;
   if (!proved.bound && proved.reason.empty()) return "";  // not reached
   if (!proved.bound) {
-    return wrapped("Not proved: a bound of all samples within the tolerances (" + proved.reason +
-                   ").");
+    return further_paragraph("Not proved: a bound of all samples within the tolerances (" +
+                             proved.reason + ").");
   }
   std::string text = "Proved: no sample within the tolerances swings by more than " +
                      swing_bound_text(*proved.bound, report.angle, usual_digits) + " in the end" +
@@ -204,25 +209,24 @@ std::string proved_text(const ToleranceReport& report) {
     text += "; of single drives it reaches " +
             swing_bound_text(*proved.largest, report.angle, usual_digits);
   }
-  return wrapped(text + ").");
+  return further_paragraph(text + ").");
 }
 
 std::string backlash_text(const ToleranceReport& report) {
   if (report.demanded_yield == 0.0) return "";
   const std::string demand = significant(100.0 * report.demanded_yield, usual_digits) + " %";
   if (!report.backlash) {
-    return "\n" + wrapped("No tolerance of the backlash gives a yield of " + demand + ".");
+    return further_paragraph("No tolerance of the backlash gives a yield of " + demand + ".");
   }
   const WidestBacklash& widest = *report.backlash;
   const auto angle = [&](double value) {
     return std::isinf(value) ? std::string("any") : angle_text(value, report);
   };
-  return "\n" +
-         wrapped(fmt::format(
-             "A yield of {} needs a backlash from {} to at most {} ({} to {} within the error "
-             "of the estimate).",
-             demand, angle(widest.min), angle(widest.max), angle(widest.uncertainty.low),
-             angle(widest.uncertainty.high)));
+  return further_paragraph(fmt::format(
+      "A yield of {} needs a backlash from {} to at most {} ({} to {} within the error of the "
+      "estimate).",
+      demand, angle(widest.min), angle(widest.max), angle(widest.uncertainty.low),
+      angle(widest.uncertainty.high)));
 }
 
 std::string counts_text(const ToleranceReport& report) {
@@ -237,19 +241,15 @@ std::string counts_text(const ToleranceReport& report) {
         " Undecided: {}; hunting with an unknown amplitude: {}; draws that are no drive: {}.",
         study.undecided, study.unknown_amplitudes, study.refused);
   }
-  return wrapped(text);
+  return further_paragraph(text);
 }
 
 /// What is known of a study that was stopped.
 std::string stopped_text(const ToleranceReport& report) {
   const ToleranceStudy& study = report.study;
-  const auto percent = [](const Estimate& share) {
+  const TextRows rows = share_rows(report, [](const Estimate& share) {
     return std::isnan(share.value) ? "not known" : significant(100.0 * share.value, 3) + " %";
-  };
-  std::vector<Row> rows = {{"hunt", percent(study.hunting)}};
-  if (!report.target_text.empty()) {
-    rows.push_back({"meet \"" + report.target_text + "\"", percent(study.yield)});
-  }
+  });
   return fmt::format("Of the {} samples, out of {}, that were answered before the stop\n",
                      study.answered, study.sampling.samples()) +
          table_text(rows);
@@ -265,16 +265,13 @@ std::string decisive_text(const ToleranceReport& report) {
          table_text(number_rows(report));
 }
 
-std::string after_a_line(const std::string& text) { return text.empty() ? "" : "\n" + text; }
-
 }  // namespace
 
 std::string tolerance_text(const ToleranceReport& report) {
   if (report.study.stopped) return stopped_text(report);
   return "Of all samples\n" + table_text(headline_rows(report)) + "\n" +
-         table_text(quantile_rows(report)) + decisive_text(report) +
-         after_a_line(worst_text(report)) + after_a_line(proved_text(report)) +
-         backlash_text(report) + "\n" + counts_text(report);
+         table_text(quantile_rows(report)) + decisive_text(report) + worst_text(report) +
+         proved_text(report) + backlash_text(report) + counts_text(report);
 }
 
 std::vector<Moments> ToleranceReport::moments() const {

@@ -23,7 +23,7 @@ std::string parameter_text(const TuneReport& report, const std::string& path, do
 }
 
 std::string table_of_values(const TuneReport& report) {
-  std::vector<std::vector<std::string>> rows = {{"parameter", "now", "tuned", "change", "sought"}};
+  TextRows rows = {{"parameter", "now", "tuned", "change", "sought"}};
   for (std::size_t i = 0; i < report.tuned.values.size(); ++i) {
     const Axis& axis = report.task.tuned[i];
     const double now = present_value(axis, present_drive(report)).value_or(std::nan(""));
@@ -121,29 +121,15 @@ std::string effort_text(const TuneReport& report) {
   return text + ". Other values may be better.";
 }
 
-std::string paragraph(const std::string& text) { return text.empty() ? "" : wrapped(text) + "\n"; }
-
 }  // namespace
-
-const char* name_of(Aim aim) {
-  switch (aim) {
-    case Aim::bandwidth:
-      return "bandwidth";
-    case Aim::settling:
-      return "settling";
-    case Aim::static_error:
-      return "static-error";
-  }
-  return "";
-}
 
 std::string tune_text(const TuneReport& report) {
   return fmt::format("target: {}\nat present: {}\ntuned: {}\n\n", report.target_text,
                      result_text(report.present, report.angle),
                      result_text(report.nominal, report.angle)) +
-         table_of_values(report) + "\n" + paragraph(outcome_text(report)) +
-         paragraph(limiting_text(report)) + paragraph(advice_text(report)) +
-         wrapped(effort_text(report));
+         table_of_values(report) + further_paragraph(outcome_text(report)) +
+         further_paragraph(limiting_text(report)) + further_paragraph(advice_text(report)) +
+         further_paragraph(effort_text(report));
 }
 
 std::optional<std::string> TuneReport::why_integral_action_hunts() const {

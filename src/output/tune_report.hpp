@@ -35,7 +35,4 @@ std::string tune_json(const TuneReport& report);
 /// The file of the tuned drive, with a remark on how it was found.
 std::string tuned_toml(const TuneReport& report);
 
-/// "bandwidth", "settling", "static-error".
-const char* name_of(Aim aim);
-
 }  // namespace gearlash

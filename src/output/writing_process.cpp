@@ -21,8 +21,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "output/file_safety.hpp"
 #include "output/output_file.hpp"
-#include "output/signals_held.hpp"
 
 namespace gearlash {
 namespace {

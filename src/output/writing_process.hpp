@@ -8,11 +8,12 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace gearlash {
 
 /// One end of the connection between two processes. Its members throw ConnectionLost if the other
-/// process has gone. The receiver knows the length of a list.
+/// process has gone.
 class Connection {
  public:
   explicit Connection(int descriptor = -1) : descriptor_(descriptor) {}
@@ -24,6 +25,7 @@ class Connection {
     return *this;
   }
 
+  /// The receiver knows the number of the values.
   template <class Value>
   void send_all(std::span<const Value> values) {
     send(std::as_bytes(values));
@@ -41,6 +43,18 @@ class Connection {
     Value value{};
     receive_all(std::span(&value, 1));
     return value;
+  }
+  /// With its length.
+  template <class Value>
+  void send_list(std::span<const Value> values) {
+    send_one(values.size());
+    send_all(values);
+  }
+  template <class Value>
+  std::vector<Value> receive_list() {
+    std::vector<Value> values(receive_one<std::size_t>());
+    receive_all(std::span(values));
+    return values;
   }
 
  private:

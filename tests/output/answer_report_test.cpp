@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "gearlash/output.hpp"
-#include "output/ceiling_report.hpp"
+#include "output/answer_parts.hpp"
 
 namespace gearlash::answer_report_test {
 namespace {

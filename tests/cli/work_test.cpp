@@ -1,12 +1,12 @@
 // The progress of long work on a terminal, and the limits that stop it.
-#include "terminal.hpp"
+#include "work.hpp"
 
 #include <gtest/gtest.h>
 
 #include <csignal>
 #include <filesystem>
 
-namespace gearlash::cli::terminal_test {
+namespace gearlash::cli::work_test {
 namespace {
 
 constexpr double megabyte = 1e6;
@@ -61,4 +61,4 @@ TEST(LimitedWork, EndsTheProgramByTheSignalOnceItsAnswerIsPrinted) {
 }
 
 }  // namespace
-}  // namespace gearlash::cli::terminal_test
+}  // namespace gearlash::cli::work_test

@@ -1,0 +1,49 @@
+// The parts of an answer's report, and its numbers as text.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "output/answer_report.hpp"
+
+namespace gearlash {
+
+/// Numbers with units: angles in the author's; times and what follows from them in units of 1/ω_n
+/// without a natural frequency.
+struct AnswerUnits {
+  explicit AnswerUnits(const AnswerReport& report, int with_digits = 6)
+      : angle_unit(report.angle), is_normalized(report.is_normalized), digits(with_digits) {}
+
+  std::string number(double value) const { return significant(value, digits); }
+  std::string angle(double radians) const { return angle_text(radians, angle_unit, digits); }
+  /// "0.1 … 0.2 rad", or one number where the ends hardly differ.
+  std::string angles(const Bounds& range) const;
+  std::string swing(double amplitude) const { return swing_text(amplitude, angle_unit, digits); }
+  /// "±0.1 rad", in the author's unit alone.
+  std::string short_swing(double amplitude) const { return "±" + angle(amplitude); }
+  std::string time(double seconds) const { return time_text(seconds, is_normalized, digits); }
+  std::string in(double value, const char* normalized, const char* otherwise) const {
+    return number(value) + (is_normalized ? normalized : otherwise);
+  }
+
+  AngleUnit angle_unit;
+  bool is_normalized;
+  int digits;
+};
+
+/// What follows from the verdict and how certain it is; for a search also its extent.
+std::string meaning_text(const AnswerReport& report);
+
+/// A table of the ceiling with its terms, or why there is none. Empty if it was not computed.
+std::string ceiling_text(const AnswerReport& report);
+
+/// The widest backlash that provably meets the specification, or why none does. Empty without one.
+std::string specification_text(const AnswerReport& report);
+
+/// How far a measured motion is from each that does not fade. Empty without a measurement.
+std::string measured_text(const AnswerReport& report);
+
+/// "1 start", "36 starts".
+std::string starts_text(std::size_t count);
+
+}  // namespace gearlash
