@@ -113,10 +113,11 @@ class Core::Session {
     Wanted wanted{
         .proofs = !is_coarse, .ceiling = true, .borders = !is_coarse, .quantization = !is_coarse};
     if (!is_coarse) return analyse_in_full(written.drive, wanted, progress);
-    return analyse_until(
-        written.drive, wanted,
-        [](const drive::AttractorSearch& search) { return !search.outcomes.empty(); }, progress,
-        last_ ? &*last_ : nullptr);
+    return analyse_in_full(
+        written.drive, wanted, progress,
+        {.near = last_ ? &*last_ : nullptr, .is_enough = [](const drive::AttractorSearch& search) {
+           return !search.outcomes.empty();
+         }});
   }
 
   /// How the answer was found, for the page to say.
