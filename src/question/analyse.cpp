@@ -10,6 +10,7 @@
 
 #include "base/arithmetic.hpp"
 #include "base/interval.hpp"
+#include "base/names.hpp"
 #include "base/number.hpp"
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
@@ -103,19 +104,9 @@ IrregularMotion irregular_of(const drive::IrregularFound& found) {
 }
 
 const char* name_of(drive::MotionEnd end) {
-  switch (end) {
-    case drive::MotionEnd::rest:
-      return "rest";
-    case drive::MotionEnd::cycle:
-      return "cycle";
-    case drive::MotionEnd::irregular:
-      return "irregular";
-    case drive::MotionEnd::diverges:
-      return "diverges";
-    case drive::MotionEnd::undecided:
-      return "undecided";
-  }
-  return "";
+  constexpr Names<drive::MotionEnd::undecided> names("rest", "cycle", "irregular", "diverges",
+                                                     "undecided");
+  return names[end];
 }
 
 /// Takes equilibria for where it rests: the ends are those where no torque limit acts.

@@ -4,26 +4,23 @@
 #include <array>
 #include <cmath>
 
+#include "base/names.hpp"
+
 namespace gearlash::drive {
 namespace {
 
 const char* text_of(ContactState contact) {
-  constexpr std::array<const char*, 8> names = {"apart",
-                                                "forward",
-                                                "backward",
-                                                "forward, damping limited",
-                                                "backward, damping limited",
-                                                "forward, letting go",
-                                                "backward, letting go",
-                                                "joined"};
-  return names[static_cast<std::size_t>(contact)];
+  constexpr Names<ContactState::joined> names(
+      "apart", "forward", "backward", "forward, damping limited", "backward, damping limited",
+      "forward, letting go", "backward, letting go", "joined");
+  return names[contact];
 }
 
 const char* text_of(FrictionState friction) {
-  constexpr std::array<const char*, 6> names = {
-      "",       "moves forward",        "moves backward",
-      "sticks", "moves slowly forward", "moves slowly backward"};
-  return names[static_cast<std::size_t>(friction)];
+  constexpr Names<FrictionState::backward_slowly> names("", "moves forward", "moves backward",
+                                                        "sticks", "moves slowly forward",
+                                                        "moves slowly backward");
+  return names[friction];
 }
 
 std::vector<ContactState> contacts_of(const ReducedDrive& drive) {

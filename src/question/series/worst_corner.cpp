@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/names.hpp"
 #include "base/on_threads.hpp"
 #include "base/range_check.hpp"
 #include "base/shared_progress.hpp"
@@ -322,17 +323,8 @@ PlaceInRange place_of(double value, const Bounds& range) {
 }  // namespace
 
 const char* name_of(PlaceInRange place) {
-  switch (place) {
-    case PlaceInRange::fixed:
-      return "fixed";
-    case PlaceInRange::at_low:
-      return "at low";
-    case PlaceInRange::inside:
-      return "inside";
-    case PlaceInRange::at_high:
-      return "at high";
-  }
-  return "";
+  constexpr Names<PlaceInRange::at_high> names("fixed", "at low", "inside", "at high");
+  return names[place];
 }
 
 WorstCorner worst_corner(const TolerancedDrive& drive, const WorstSearch& search,

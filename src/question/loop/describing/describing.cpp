@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/names.hpp"
 #include "model/rational_function.hpp"
 
 namespace gearlash::drive {
@@ -389,35 +390,29 @@ bool is_in_loop(const DescribingAnalysis& analysis) {
 }
 
 const char* name_of(DescribedPart part) {
-  static constexpr const char* names[] = {"gap, load held by friction",
-                                          "gap, load coasting",
-                                          "gap with elastic faces",
-                                          "torque limit",
-                                          "Coulomb friction",
-                                          "dead band",
-                                          "relay"};
-  return names[static_cast<std::size_t>(part)];
+  constexpr Names<DescribedPart::relay> names("gap, load held by friction", "gap, load coasting",
+                                              "gap with elastic faces", "torque limit",
+                                              "Coulomb friction", "dead band", "relay");
+  return names[part];
 }
 
 const char* name_of(Assumption assumption) {
-  static constexpr const char* descriptions[] = {
+  constexpr Names<Assumption::falling_friction_left_out> descriptions(
       "the motor drives all inertia and viscous friction at all times",
       "the sensors are on the motor, so the gap is outside the loop of positions and causes "
       "no cycle there; the description takes the first harmonic of the load's inertia and "
       "viscous friction, which act back on the motor",
-      "there is no gap: both shafts turn as one",
-      "the torque is not limited",
+      "there is no gap: both shafts turn as one", "the torque is not limited",
       "all friction is viscous",
       "breakaway torque has no effect, because a sine is never at rest; hunting from "
       "stiction is not described",
       "the controller is continuous, with a delay of half a sampling period plus its "
       "computational delay",
-      "this delay inside the loop is a rational function of order 4",
-      "encoders have no steps",
+      "this delay inside the loop is a rational function of order 4", "encoders have no steps",
       "reference and load torque are 0",
       "the controller receives the error itself, without dead band or compensation",
-      "dry friction does not fall with speed"};
-  return descriptions[static_cast<std::size_t>(assumption)];
+      "dry friction does not fall with speed");
+  return descriptions[assumption];
 }
 
 std::vector<ExactMotion> exact_motions(const Answer& answer) {
