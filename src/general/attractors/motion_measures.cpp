@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "hybrid/disturbances.hpp"
 #include "numeric/linear_algebra.hpp"
 
 namespace gearlash::drive {
@@ -18,22 +19,6 @@ using hybrid::Matrix;
 using hybrid::State;
 using hybrid::Trajectory;
 using hybrid::Vector;
-
-/// The flow of each mode alone, with events where a form changes its sign.
-HybridSystem turning_system(const HybridSystem& system, const hybrid::AffineForm& speed) {
-  HybridSystem result;
-  result.state_names = system.state_names;
-  result.source = hybrid::ModeSource(system.mode_count(), [system, speed](std::size_t index) {
-    hybrid::AffineMode alone;
-    alone.flow = system.mode(index).flow;
-    alone.transitions.push_back({});
-    alone.transitions.back().guard = speed;
-    alone.transitions.back().direction = hybrid::Direction::either;
-    alone.transitions.back().target = index;
-    return alone;
-  });
-  return result;
-}
 
 /// Calls visit(start, from, to, end) for each stretch between events, including those of no
 /// duration. `end` is the state before the event there.
@@ -53,46 +38,26 @@ void for_each_stretch(const Trajectory& motion, Visit&& visit) {
   visit(here, time, motion.end_time(), motion.end().numbers);
 }
 
-/// The time derivative in a mode.
-Vector velocity(const HybridSystem& system, std::size_t mode, const Vector& numbers) {
-  return system.mode(mode).flow.matrix * numbers + system.mode(mode).flow.offset;
-}
-
-const hybrid::AffineReset& reset_of(const hybrid::AffineMode& mode, const Event& event) {
-  if (event.kind == hybrid::EventKind::timed) return mode.timed[event.transition].reset;
-  const hybrid::Transition& transition = mode.transitions[event.transition];
-  return event.kind == hybrid::EventKind::settling ? transition.settling->reset : transition.reset;
-}
-
-/// A disturbance of the state, and the delay of the last event that it causes.
-struct Disturbance {
-  Vector numbers;
-  double delay = 0.0;
-};
-
-/// Carries a disturbance over an event. An event that another one causes at its own instant has
-/// that one's delay. If a guard is met at no speed there is no derivative, and the delay stays
-/// unchanged.
-void carry_over(const HybridSystem& system, const Event& event, bool is_chained,
-                Disturbance& disturbance) {
-  const hybrid::AffineMode& mode = system.mode(event.mode);
-  const Matrix reset = reset_of(mode, event).slope(system.size());
-  const Vector before = velocity(system, event.mode, event.before);
-  const Vector after = velocity(system, event.mode_after, event.after);
-  if (event.kind == hybrid::EventKind::timed) {
-    disturbance.delay = 0.0;
-  } else if (!is_chained) {
-    const Vector& normal = mode.transitions[event.transition].guard.normal;
-    const double speed = normal.dot(before);
-    if (speed != 0.0) disturbance.delay = -normal.dot(disturbance.numbers) / speed;
-  }
-  disturbance.numbers = reset * disturbance.numbers - (after - reset * before) * disturbance.delay;
-}
-
 }  // namespace
 
+HybridSystem with_turns(const HybridSystem& system, const hybrid::AffineForm& speed,
+                        OtherEvents others) {
+  const bool are_kept = others == OtherEvents::kept;
+  HybridSystem result = are_kept ? system : HybridSystem{.state_names = system.state_names};
+  result.modes.clear();
+  result.source = hybrid::ModeSource(system.mode_count(), [system, speed,
+                                                           are_kept](std::size_t index) {
+    hybrid::AffineMode mode = system.mode(index);
+    if (!are_kept) mode = {.flow = std::move(mode.flow)};
+    mode.transitions.push_back(
+        {.name = "turns", .guard = speed, .direction = hybrid::Direction::either, .target = index});
+    return mode;
+  });
+  return result;
+}
+
 Watched watched(const HybridSystem& system, hybrid::AffineForm value, hybrid::AffineForm speed) {
-  hybrid::PreparedSystem turns(turning_system(system, speed));
+  hybrid::PreparedSystem turns(with_turns(system, speed, OtherEvents::left_out));
   return {std::move(value), std::move(speed), std::move(turns)};
 }
 
@@ -287,10 +252,11 @@ class Exponentials {
 }  // namespace
 
 double largest_exponent(const HybridSystem& system, const Trajectory& motion, Eigen::Index own) {
-  Disturbance disturbance{Vector::Zero(system.size())};
+  Matrix disturbance = Matrix::Zero(system.size(), 1);
+  Eigen::RowVectorXd delay = Eigen::RowVectorXd::Zero(1);
   // A direction with a component along any growing one.
   for (Eigen::Index i = 0; i < own; ++i) {
-    disturbance.numbers[i] = 1.0 / std::sqrt(2.0 + static_cast<double>(i));
+    disturbance(i, 0) = 1.0 / std::sqrt(2.0 + static_cast<double>(i));
   }
   double logarithm = 0.0;
   std::size_t next = 0;
@@ -299,19 +265,17 @@ double largest_exponent(const HybridSystem& system, const Trajectory& motion, Ei
   const double duration = motion.end_time() - motion.start_time();
   Exponentials exponentials(system, share * duration / static_cast<double>(events.size() + 1));
   for_each_stretch(motion, [&](const State& start, double from, double to, const Vector&) {
-    if (to > from) {
-      disturbance.numbers = exponentials.of(start.mode, to - from) * disturbance.numbers;
-    }
+    if (to > from) disturbance = exponentials.of(start.mode, to - from) * disturbance;
     if (next == events.size()) return;
     const bool is_chained = next > 0 && events[next].time == events[next - 1].time;
-    carry_over(system, events[next++], is_chained, disturbance);
-    const double size = disturbance.numbers.norm();
+    carry_over(system, start.mode, events[next++], is_chained, disturbance, delay);
+    const double size = disturbance.norm();
     if (!(size > 0.0)) return;
     logarithm += std::log(size);
-    disturbance.numbers /= size;
-    disturbance.delay /= size;
+    disturbance /= size;
+    delay /= size;
   });
-  const double last = disturbance.numbers.norm();
+  const double last = disturbance.norm();
   if (last == 0.0) return -std::numeric_limits<double>::infinity();
   return (logarithm + std::log(last)) / duration;
 }
