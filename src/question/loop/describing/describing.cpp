@@ -216,17 +216,17 @@ double modulus(const TransferFunction& transfer, double frequency) {
   return std::abs(frequency_response(transfer, frequency).value);
 }
 
-DescribedMotion motion_of(const DescribingAnalysis& analysis, const PredictedCycle& cycle,
-                          double gap) {
+DescribedMotion motion_of(const DescribingAnalysis& analysis, const PredictedCycle& cycle) {
   DescribedMotion motion{.balance = cycle};
   motion.motor_amplitude = cycle.amplitude / modulus(analysis.input_per_motor, cycle.frequency);
-  motion.amplitude =
-      analysis.load_per_motor
-          ? motion.motor_amplitude * modulus(*analysis.load_per_motor, cycle.frequency)
-          : load_amplitude(analysis.part == DescribedPart::gap_load_held
-                               ? LoadInGap::held_by_friction
-                               : LoadInGap::coasting,
-                           cycle, gap);
+  if (analysis.load_per_motor) {
+    motion.amplitude = motion.motor_amplitude * modulus(*analysis.load_per_motor, cycle.frequency);
+  } else if (const auto* held = std::get_if<FrictionControlledBacklash>(&analysis.nonlinearity)) {
+    motion.amplitude = load_amplitude(*held, cycle);
+  } else {
+    motion.amplitude =
+        load_amplitude(std::get<InertiaControlledBacklash>(analysis.nonlinearity), cycle);
+  }
   return motion;
 }
 
@@ -239,7 +239,7 @@ DescribingAnalysis completed(DescribingAnalysis analysis, const ReducedDrive& dr
       harmonic_balance(analysis.nonlinearity, analysis.loop, frequency_range(analysis.loop));
   analysis.unresolved = std::move(balance.unresolved);
   for (const PredictedCycle& cycle : balance.cycles) {
-    analysis.cycles.push_back(motion_of(analysis, cycle, drive.backlash));
+    analysis.cycles.push_back(motion_of(analysis, cycle));
   }
   return analysis;
 }
