@@ -1,7 +1,6 @@
 #include "general/attractors/motion_measures.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -9,6 +8,7 @@
 
 #include "hybrid/disturbances.hpp"
 #include "numeric/linear_algebra.hpp"
+#include "numeric/zero_between.hpp"
 
 namespace gearlash::drive {
 namespace {
@@ -19,6 +19,8 @@ using hybrid::Matrix;
 using hybrid::State;
 using hybrid::Trajectory;
 using hybrid::Vector;
+
+constexpr unsigned bits_of_time = 40;
 
 /// Calls visit(start, from, to, end) for each stretch between events, including those of no
 /// duration. `end` is the state before the event there.
@@ -76,21 +78,6 @@ std::vector<Sample> samples(const Trajectory& motion, const Watched& watched) {
   return result;
 }
 
-namespace {
-
-/// The zero of a continuous function between two times at which its values have unlike signs. Late
-/// in a long motion both may be the same number.
-template <class Function>
-double zero_between(double from, double to, double value, double value_after, Function&& function) {
-  if (!(from < to)) return from;
-  std::uintmax_t most = 30;
-  const auto [left, right] = boost::math::tools::toms748_solve(
-      function, from, to, value, value_after, boost::math::tools::eps_tolerance<double>(40), most);
-  return 0.5 * (left + right);
-}
-
-}  // namespace
-
 std::vector<Sample> rough_samples(const Trajectory& motion, const Watched& watched) {
   std::vector<Sample> result;
   std::size_t step = 0;
@@ -100,10 +87,11 @@ std::vector<Sample> rough_samples(const Trajectory& motion, const Watched& watch
     double before = watched.speed.at(start.numbers);
     const auto pass = [&](double until, double after) {
       if (before * after < 0.0) {
-        const double turn = zero_between(from, until, before, after, [&](double time) {
+        const auto speed_at = [&](double time) {
           motion.at(time, here);
           return watched.speed.at(here.numbers);
-        });
+        };
+        const double turn = zero_between(from, until, before, after, speed_at, bits_of_time);
         motion.at(turn, here);
         result.push_back({turn, watched.value.at(here.numbers)});
       }
@@ -189,9 +177,11 @@ std::vector<double> upward_passings(const Trajectory& motion, const Watched& wat
     const Sample& low = samples[i];
     const Sample& high = samples[i + 1];
     if (low.time < after || low.value >= level || high.value < level) continue;
-    times.push_back(zero_between(
-        low.time, high.time, low.value - level, high.value - level,
-        [&](double time) { return watched.value.at(motion.at(time).numbers) - level; }));
+    const auto above_at = [&](double time) {
+      return watched.value.at(motion.at(time).numbers) - level;
+    };
+    times.push_back(zero_between(low.time, high.time, low.value - level, high.value - level,
+                                 above_at, bits_of_time));
   }
   return times;
 }
