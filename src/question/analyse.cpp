@@ -282,13 +282,7 @@ Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive
   }
   answer.verdict = verdict_of(search, reduced, answer.irregular);
   answer.rests_engaged = search.rests_until_disturbed;
-  for (const drive::FoundThreshold& found : search.thresholds) {
-    const bool runs_away = found.end == drive::MotionEnd::diverges;
-    answer.thresholds.push_back({.end = runs_away ? "running away" : "hunting",
-                                 .direction = found.direction,
-                                 .below = found.below,
-                                 .from = found.from});
-  }
+  answer.thresholds = search.thresholds;
   if (search.rest) answer.rest = rest_of(search, reduced);
   answer.search = SearchRecord{.watch_time = search.watch_time,
                                .is_complete = search.is_complete,

@@ -115,24 +115,14 @@ Shafts shafts_of(const drive::ShaftStates& state) {
   return {state.load_position, state.load_speed, state.motor_position, state.motor_speed};
 }
 
+/// The reasons are the same ones, in the same order.
 MotionStop stop_of(hybrid::StopReason reason) {
-  switch (reason) {
-    case hybrid::StopReason::reached_end:
-      return MotionStop::reached_end;
-    case hybrid::StopReason::event_limit:
-      return MotionStop::event_limit;
-    case hybrid::StopReason::step_limit:
-      return MotionStop::step_limit;
-    case hybrid::StopReason::zeno:
-      return MotionStop::zeno;
-    case hybrid::StopReason::chattering:
-      return MotionStop::chattering;
-    case hybrid::StopReason::diverged:
-      return MotionStop::diverged;
-    case hybrid::StopReason::stopped:
-      return MotionStop::stopped;
-  }
-  return MotionStop::reached_end;
+  static_assert(static_cast<int>(MotionStop::reached_end) ==
+                    static_cast<int>(hybrid::StopReason::reached_end) &&
+                static_cast<int>(MotionStop::zeno) == static_cast<int>(hybrid::StopReason::zeno) &&
+                static_cast<int>(MotionStop::stopped) ==
+                    static_cast<int>(hybrid::StopReason::stopped));
+  return static_cast<MotionStop>(reason);
 }
 
 std::string stop_text_of(const hybrid::Trajectory& trajectory) {
