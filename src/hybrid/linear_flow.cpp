@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
-
-#include "numeric/linear_algebra.hpp"
 
 namespace gearlash::hybrid {
 namespace {
@@ -109,17 +106,28 @@ double LinearFlow::sum_of_row(std::size_t row, const Counts& counts) const {
   return sum;
 }
 
-/// The units in which each loop by itself is balanced.
+/// Balances the sums of rows and columns within each loop (Osborne 1960).
 void LinearFlow::weigh_within_loops(const std::vector<std::vector<bool>>& reached) {
-  Eigen::MatrixXd loops = Eigen::MatrixXd::Zero(count(), count());
-  for (int i = 0; i < count(); ++i) {
-    for (std::size_t e = rows_[at(i)]; e < rows_[at(i) + 1]; ++e) {
-      const auto [j, factor] = entries_[e];
-      if (in_one_loop(reached, at(i), at(j))) loops(i, j) = factor;
+  const std::size_t size = reached.size();
+  constexpr int sweeps = 20;
+  bool changed = true;
+  for (int sweep = 0; sweep < sweeps && changed; ++sweep) {
+    changed = false;
+    for (std::size_t i = 0; i < size; ++i) {
+      const double row =
+          sum_of_row(i, [&](std::size_t j) { return j != i && in_one_loop(reached, i, j); });
+      double column = 0.0;
+      for (std::size_t k = 0; k < size; ++k) {
+        if (k == i || !in_one_loop(reached, i, k)) continue;
+        column += sum_of_row(k, [&](std::size_t j) { return j == i; });
+      }
+      if (row == 0.0 || column == 0.0) continue;
+      const double factor = std::exp2(std::round(0.5 * std::log2(row / column)));
+      if (factor == 1.0) continue;
+      weights_[i] *= factor;
+      changed = true;
     }
   }
-  const Eigen::VectorXd scales = balancing_scales(std::move(loops));
-  weights_.assign(scales.begin(), scales.end());
 }
 
 /// Loop by loop, first those that act on the others. Afterwards what comes from other loops is at
@@ -157,6 +165,7 @@ void LinearFlow::weigh_between_loops(const std::vector<std::vector<bool>>& reach
 void LinearFlow::weigh() {
   const std::vector<std::vector<bool>> reached = reaches();
   const std::size_t size = reached.size();
+  weights_.assign(size, 1.0);
   weigh_within_loops(reached);
   double fastest = 0.0;
   for (std::size_t i = 0; i < size; ++i) {
