@@ -116,20 +116,12 @@ class Climb {
   static constexpr std::size_t most_corners = 64;  ///< of a searched drive
 
   std::vector<Values> corners() const {
-    std::vector<Values> all = {{}};
-    if (answers_.are_one_by_one() && std::size_t{1} << coordinates_.size() > most_corners)
+    if (answers_.are_one_by_one() && std::size_t{1} << coordinates_.size() > most_corners) {
       return {};
-    for (const Coordinate& coordinate : coordinates_) {
-      const std::size_t others = all.size();
-      for (std::size_t i = 0; i < others; ++i) {
-        if (coordinate.width() > 0.0) {
-          all.push_back(all[i]);
-          all.back().push_back(coordinate.range.high);
-        }
-        all[i].push_back(coordinate.range.low);
-      }
     }
-    return all;
+    std::vector<Bounds> ranges;
+    for (const Coordinate& coordinate : coordinates_) ranges.push_back(coordinate.range);
+    return corners_of(ranges);
   }
 
   std::vector<Values> samples() const {
