@@ -113,69 +113,29 @@ std::string printed(double value, int precision, Notation notation) {
   return text.str();
 }
 
-/// ± 0.d₁d₂… · 10^point.
-struct Digits {
-  std::string sign;
-  std::string digits;
-  int point = 0;
-};
-
-/// One more or less in the last place; `step`: −1, 0 or 1. Empty where that changes the length.
-std::string neighbour(const std::string& digits, int step) {
-  const std::string text = std::to_string(std::stoll(digits) + step);
-  return text.size() == digits.size() ? text : std::string();
-}
-
-/// The fewest digits that read back. With one less than most, the nearest decimal may be just
-/// outside the numbers that read back as `value`, and its neighbour inside.
-Digits shortest_digits(double value) {
-  Digits result{.sign = std::signbit(value) ? "-" : "", .digits = {}};
-  for (int count = 1; count <= static_cast<int>(most_digits); ++count) {
-    const std::string text = printed(std::abs(value), count - 1, Notation::scientific);
-    const std::size_t e = text.find('e');
-    result.point = std::atoi(text.c_str() + e + 1) + 1;
-    std::string digits = text.substr(0, e);
-    std::erase(digits, '.');
-    for (const int step : {0, 1, -1}) {
-      result.digits = neighbour(digits, step);
-      const std::string candidate = result.digits + "e" + std::to_string(result.point - count);
-      if (!result.digits.empty() && std::strtod(candidate.c_str(), nullptr) == std::abs(value)) {
-        return result;
-      }
-    }
-  }
-  return result;
-}
-
-std::string scientific(const Digits& number) {
-  const int exponent = number.point - 1;
-  std::string text = number.sign + number.digits.substr(0, 1);
-  if (number.digits.size() > 1) text += "." + number.digits.substr(1);
-  const std::string power = std::to_string(std::abs(exponent));
-  return text + (exponent < 0 ? "e-" : "e+") + (power.size() < 2 ? "0" : "") + power;
-}
-
-std::string fixed(const Digits& number, double value) {
-  const int length = static_cast<int>(number.digits.size());
-  if (number.point >= length) return printed(value, 0, Notation::fixed);  // an integer, in full
-  const std::string zeros(static_cast<std::size_t>(std::max(0, 1 - number.point)), '0');
-  const std::string digits = zeros + number.digits;
-  const auto whole = static_cast<std::size_t>(std::max(1, number.point));
-  return number.sign + digits.substr(0, whole) + "." + digits.substr(whole);
-}
-
 }  // namespace
 
+/// The fewest digits that read back. The nearest decimal of so many may be just below the numbers
+/// that read back as `value`, if that is a power of two, and the next one among them.
 std::string shortest_scientific_text(double value) {
-  return value == 0.0 ? printed(value, 0, Notation::scientific)
-                      : scientific(shortest_digits(value));
+  std::string text;
+  for (std::size_t count = 1; count <= most_digits; ++count) {
+    text = printed(value, static_cast<int>(count) - 1, Notation::scientific);
+    if (std::strtod(text.c_str(), nullptr) == value) break;
+    char& last = text[text.find('e') - 1];
+    if (last == '9') continue;  // the next one has fewer digits
+    ++last;
+    if (std::strtod(text.c_str(), nullptr) == value) break;
+  }
+  return text;
 }
 
 std::string shortest_text(double value) {
-  if (value == 0.0) return printed(value, 0, Notation::fixed);
-  const Digits number = shortest_digits(value);
-  const std::string with_exponent = scientific(number);
-  const std::string without = fixed(number, value);
+  std::string with_exponent = shortest_scientific_text(value);
+  const std::size_t e = with_exponent.find('e');
+  const auto decimals = static_cast<int>(significant_digits(with_exponent).size()) - 1 -
+                        std::stoi(with_exponent.substr(e + 1));
+  std::string without = printed(value, std::max(0, decimals), Notation::fixed);
   return without.size() <= with_exponent.size() ? without : with_exponent;
 }
 

@@ -49,8 +49,8 @@ Traversal traverse(const ServoDynamics& dynamics, const Arrival& arrival,
                    std::size_t event_limit = traversal_event_limit);
 
 /// The first arrival of a motion in which the faces part forward at (y, ẏ) = ±amplitude × the
-/// torque-free line, with the sign at which they can part so. `outcome` is arrived or came_to_rest;
-/// only `next` is set.
+/// torque-free line, with the sign at which they can part so. `outcome` and `next` are those of the
+/// arrival.
 Traversal first_arrival(const ServoDynamics& dynamics, double amplitude);
 
 /// The state just after the impact that an arrival ends in, about reference 0.

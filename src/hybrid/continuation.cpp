@@ -81,8 +81,7 @@ void consider_alternatives(const HybridSystem& system, const std::vector<Event>&
     const Transition& transition = mode.transitions[event.transition];
     for (const Alternative& alternative : transition.alternatives) {
       for (const AffineForm& form : alternative.positive) {
-        const double terms =
-            std::abs(form.offset) + form.normal.cwiseAbs().dot(event.after.cwiseAbs());
+        const double terms = form.size_at(event.after);
         if (terms > 0.0) {
           clearance.consider(std::abs(form.at(event.after)) / terms, mode.name, transition.name);
         }
@@ -94,19 +93,16 @@ void consider_alternatives(const HybridSystem& system, const std::vector<Event>&
 /// For each guard that is met: the speed at which it is met over the highest such speed.
 void consider_guards_met(const HybridSystem& system, const std::vector<Event>& events,
                          Clearance& clearance) {
-  const auto speed_of = [&](const Event& event) {
-    const AffineMode& mode = system.mode(event.mode);
-    return std::abs(mode.transitions[event.transition].guard.normal.dot(
-        mode.flow.matrix * event.before + mode.flow.offset));
-  };
   double highest = 0.0;
   for (const Event& event : events) {
-    if (event.kind == EventKind::transition) highest = std::max(highest, speed_of(event));
+    if (event.kind == EventKind::transition) {
+      highest = std::max(highest, speed_at_guard(system, event));
+    }
   }
   for (const Event& event : events) {
     if (event.kind != EventKind::transition) continue;
     const AffineMode& mode = system.mode(event.mode);
-    clearance.consider(speed_of(event) / highest, mode.name,
+    clearance.consider(speed_at_guard(system, event) / highest, mode.name,
                        mode.transitions[event.transition].name);
   }
 }

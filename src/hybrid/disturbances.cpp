@@ -1,5 +1,8 @@
 #include "hybrid/disturbances.hpp"
 
+#include <cmath>
+#include <utility>
+
 #include "numeric/linear_algebra.hpp"
 
 namespace gearlash::hybrid {
@@ -19,8 +22,29 @@ const AffineReset& reset_of(const AffineMode& mode, const Event& event) {
 
 }  // namespace
 
-Vector velocity(const AffineFlow& flow, const Vector& numbers) {
-  return flow.matrix * numbers + flow.offset;
+double speed_at_guard(const HybridSystem& system, const Event& event) {
+  const AffineMode& mode = system.mode(event.mode);
+  return std::abs(
+      mode.transitions[event.transition].guard.normal.dot(mode.flow.velocity(event.before)));
+}
+
+bool carry_over(const HybridSystem& system, std::size_t mode, const Event& event, bool is_chained,
+                Matrix& disturbances, Eigen::RowVectorXd& delay) {
+  const AffineMode& left = system.mode(event.mode);
+  const Matrix reset = reset_of(left, event).slope(system.size());
+  const Vector before = system.mode(mode).flow.velocity(event.before);
+  bool is_met = true;
+  if (event.kind == EventKind::timed) {
+    delay.setZero();
+  } else if (!is_chained) {
+    const Vector& normal = left.transitions[event.transition].guard.normal;
+    const double speed = normal.dot(before);
+    is_met = speed != 0.0;
+    if (is_met) delay = normal.transpose() * disturbances / -speed;
+  }
+  const Vector jump = system.mode(event.mode_after).flow.velocity(event.after) - reset * before;
+  disturbances = reset * disturbances - jump * delay;
+  return is_met;
 }
 
 Disturbances::Disturbances(const HybridSystem& system, const State& start, double time)
@@ -36,31 +60,12 @@ void Disturbances::flow_to(double time) {
   if (duration > 0.0) slope_ = exponential(system_.mode(mode_).flow.matrix * duration) * slope_;
 }
 
-bool Disturbances::delay_at(const Event& event, const Vector& flow_before) {
-  const AffineForm& guard = system_.mode(mode_).transitions[event.transition].guard;
-  const double speed = guard.normal.dot(flow_before);
-  if (speed == 0.0) return false;
-  delay_ = guard.normal.transpose() * slope_;
-  delay_ /= -speed;
-  return true;
-}
-
 bool Disturbances::meet(const Event& event) {
   const bool is_chained = event.time == last_event_;
   last_event_ = event.time;
   flow_to(event.time);
-  const Matrix reset = reset_of(system_.mode(event.mode), event).slope(system_.size());
-  const Vector flow_before = velocity(system_.mode(mode_).flow, event.before);
-  if (event.kind == EventKind::timed) {
-    delay_.setZero();
-  } else if (!is_chained && !delay_at(event, flow_before)) {
-    // An event that another one causes at its own instant is delayed as that one is.
-    return false;
-  }
-  mode_ = event.mode_after;
-  const Vector jump = velocity(system_.mode(mode_).flow, event.after) - reset * flow_before;
-  slope_ = reset * slope_ - jump * delay_;
-  return true;
+  const std::size_t mode = std::exchange(mode_, event.mode_after);
+  return carry_over(system_, mode, event, is_chained, slope_, delay_);
 }
 
 }  // namespace gearlash::hybrid

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 #include "hybrid/linear_flow.hpp"
@@ -18,15 +17,6 @@ constexpr double least_gap = 8.0;
 
 using ComplexMatrix = Eigen::MatrixXcd;
 using Spectrum = Eigen::VectorXcd;
-
-std::vector<Eigen::Index> by_size(const Spectrum& values) {
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
-    return std::abs(values[a]) > std::abs(values[b]);
-  });
-  return order;
-}
 
 /// Numbers of the largest eigenvalues that all decay and have a wide gap, by ratio, to the next,
 /// rising. Eigenvalues that rounding alone keeps from 0 do not decay, and count as large as that
@@ -65,13 +55,6 @@ ComplexMatrix refined(const Matrix& matrix, const ComplexMatrix& vectors, const 
 /// and that one on it, has no weights in which both count alike.
 Matrix without_rounding(const Matrix& matrix) {
   return (matrix.cwiseAbs().array() <= left_out * matrix.norm()).select(0.0, matrix);
-}
-
-/// Eigenvalues and eigenvectors, the largest first.
-Eigensystem sorted(const Matrix& matrix) {
-  const Eigensystem system = eigensystem(matrix);
-  const std::vector<Eigen::Index> order = by_size(system.values);
-  return {system.values(order), system.vectors(Eigen::all, order)};
 }
 
 }  // namespace
@@ -157,8 +140,8 @@ std::vector<FastDecays> fast_decays(const AffineFlow& flow) {
   const Vector inverse = weights.cwiseInverse();
   const AffineFlow balanced{scaled(flow.matrix, weights), inverse.cwiseProduct(flow.offset)};
   const Matrix& matrix = balanced.matrix;
-  const Eigensystem right = sorted(matrix);
-  const Eigensystem left = sorted(matrix.transpose());
+  const Eigensystem right = sorted_eigensystem(matrix);
+  const Eigensystem left = sorted_eigensystem(matrix.transpose());
   Matrix projector = Matrix::Zero(matrix.rows(), matrix.cols());
   Matrix spread = projector;
   std::vector<FastDecays> all;

@@ -124,21 +124,21 @@ class Inspection {
     }
   }
 
+  template <class Jump>
+  void inspect_jump(const std::string& where, const Jump& jump) {
+    inspect(where + ".reset", jump.reset);
+    expect_mode(where + ".target", jump.target);
+    inspect(where + ".alternatives", jump.alternatives);
+  }
+
   void inspect(const std::string& where, const Transition& transition) {
     inspect(where + ".guard", transition.guard);
-    inspect(where + ".reset", transition.reset);
-    expect_mode(where + ".target", transition.target);
-    inspect(where + ".alternatives", transition.alternatives);
-    if (!transition.settling) return;
-    inspect(where + ".settling.reset", transition.settling->reset);
-    expect_mode(where + ".settling.target", transition.settling->target);
-    inspect(where + ".settling.alternatives", transition.settling->alternatives);
+    inspect_jump(where, transition);
+    if (transition.settling) inspect_jump(where + ".settling", *transition.settling);
   }
 
   void inspect(const std::string& where, const TimedTransition& transition) {
-    inspect(where + ".reset", transition.reset);
-    expect_mode(where + ".target", transition.target);
-    inspect(where + ".alternatives", transition.alternatives);
+    inspect_jump(where, transition);
     if (transition.clock < system_.clocks.size()) return;
     note(where + ".clock", std::to_string(transition.clock),
          "must be one of " + counted(system_.clocks.size(), "clock") + ", from 0 on");

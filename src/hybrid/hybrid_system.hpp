@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -23,6 +24,8 @@ double largest_entry(const Vector& vector);
 struct AffineFlow {
   Matrix matrix{};
   Vector offset{};
+
+  Vector velocity(const Vector& state) const { return matrix * state + offset; }
 };
 
 /// g(x) = normal·x + offset.
@@ -31,6 +34,10 @@ struct AffineForm {
   double offset = 0.0;
 
   double at(const Eigen::Ref<const Vector>& state) const { return normal.dot(state) + offset; }
+  /// The sum of its terms' sizes.
+  double size_at(const Vector& state) const {
+    return normal.cwiseAbs().dot(state.cwiseAbs()) + std::abs(offset);
+  }
 };
 
 /// What an instrument reads: step · round(measured/step), halves away from 0.
@@ -95,6 +102,17 @@ struct AffineMode {
   std::vector<Transition> transitions{};
   std::vector<TimedTransition> timed{};
 };
+
+/// Calls visit(jump) for all that leaves a mode: transitions, their settlings and timed
+/// transitions, each with a reset, a target and alternatives.
+template <class Mode, class Visit>
+void for_each_jump(Mode& mode, const Visit& visit) {
+  for (auto& transition : mode.transitions) {
+    visit(transition);
+    if (transition.settling) visit(*transition.settling);
+  }
+  for (auto& timed : mode.timed) visit(timed);
+}
 
 /// Ticks at first, first + period, first + 2 period, …; or, without a period, at `times`. A motion
 /// meets those that are not before its own start.

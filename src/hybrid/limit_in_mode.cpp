@@ -160,7 +160,7 @@ GuardEnd end_of(double last, double drift, double size, const Spectrum& terms,
 
 std::optional<LimitInMode> limit_in_mode(const AffineMode& mode, const Vector& numbers) {
   if (!mode.timed.empty()) return std::nullopt;
-  const Vector velocity = mode.flow.matrix * numbers + mode.flow.offset;
+  const Vector velocity = mode.flow.velocity(numbers);
   const Moving moving = moving_part(mode.flow.matrix, velocity);
   LimitInMode limit{numbers, Vector::Zero(numbers.size())};
   if (moving.numbers.empty()) return limit;
@@ -181,9 +181,8 @@ std::optional<LimitInMode> limit_in_mode(const AffineMode& mode, const Vector& n
         normal[static_cast<Index>(row)] += guard.normal[number];
       }
     }
-    const double size = guard.normal.cwiseAbs().dot(limit.numbers.cwiseAbs()) +
-                        std::abs(guard.offset) +
-                        normal.cwiseAbs().sum() * decays->ways.cwiseAbs().maxCoeff();
+    const double size =
+        guard.size_at(limit.numbers) + normal.cwiseAbs().sum() * decays->ways.cwiseAbs().maxCoeff();
     const Spectrum terms = decays->ways.transpose() * normal.cast<Complex>();
     const GuardEnd end =
         end_of(guard.at(limit.numbers), normal.dot(decays->drift), size, terms, decays->values);

@@ -12,7 +12,7 @@ Vector flown(const AffineFlow& flow, const Vector& numbers, double time) {
   const Eigen::Index size = numbers.size();
   Matrix augmented = Matrix::Zero(size + 1, size + 1);
   augmented.topLeftCorner(size, size) = flow.matrix;
-  augmented.topRightCorner(size, 1) = velocity(flow, numbers);
+  augmented.topRightCorner(size, 1) = flow.velocity(numbers);
   return numbers + Vector(exponential(augmented * time).topRightCorner(size, 1));
 }
 
@@ -26,7 +26,7 @@ std::optional<double> time_to_plane(const AffineMode& mode, const At& at, double
   double later = 0.0;
   for (int i = 0; i < 40; ++i) {
     const Vector here = at(later);
-    const double step = -plane.at(here) / plane.normal.dot(velocity(mode.flow, here));
+    const double step = -plane.at(here) / plane.normal.dot(mode.flow.velocity(here));
     if (!std::isfinite(step)) return std::nullopt;
     later += step;
     constexpr double short_step = 1e-15;
@@ -123,7 +123,7 @@ std::optional<Passage> pass(const PreparedSystem& prepared, const State& start, 
   passage.slope = passage.slope_at_time;
   passage.duration_slope = Vector::Zero(system.size());
   if (!finish.plane) return passage;
-  const Vector flow = velocity(system.mode(passage.end.mode).flow, passage.end.numbers);
+  const Vector flow = system.mode(passage.end.mode).flow.velocity(passage.end.numbers);
   passage.duration_slope = -(finish.plane->normal.transpose() * passage.slope).transpose() /
                            finish.plane->normal.dot(flow);
   passage.slope += flow * passage.duration_slope.transpose();

@@ -25,15 +25,11 @@ bool is_left_alone(const AffineReset& reset, Eigen::Index number, Eigen::Index s
 }
 
 bool is_left_alone(const AffineMode& mode, Eigen::Index number, Eigen::Index size, bool may_step) {
-  return std::all_of(mode.transitions.begin(), mode.transitions.end(),
-                     [&](const Transition& transition) {
-                       return is_left_alone(transition.reset, number, size, may_step) &&
-                              (!transition.settling ||
-                               is_left_alone(transition.settling->reset, number, size, may_step));
-                     }) &&
-         std::all_of(mode.timed.begin(), mode.timed.end(), [&](const TimedTransition& timed) {
-           return is_left_alone(timed.reset, number, size, may_step);
-         });
+  bool is_left = true;
+  for_each_jump(mode, [&](const auto& jump) {
+    is_left = is_left && is_left_alone(jump.reset, number, size, may_step);
+  });
+  return is_left;
 }
 
 /// Whether all modes have the same flow of a number, none if it is a count, and events leave it
@@ -129,15 +125,12 @@ PreparedMode::PreparedMode(const AffineMode& mode, Eigen::Index size)
   transitions.reserve(mode.transitions.size());
   settlings.reserve(mode.transitions.size());
   for (const Transition& transition : mode.transitions) {
-    transitions.emplace_back(transition.reset, transition.alternatives, size);
+    transitions.emplace_back(transition, size);
     settlings.emplace_back();
-    if (!transition.settling) continue;
-    settlings.back().emplace(transition.settling->reset, transition.settling->alternatives, size);
+    if (transition.settling) settlings.back().emplace(*transition.settling, size);
   }
   timed.reserve(mode.timed.size());
-  for (const TimedTransition& tick : mode.timed) {
-    timed.emplace_back(tick.reset, tick.alternatives, size);
-  }
+  for (const TimedTransition& tick : mode.timed) timed.emplace_back(tick, size);
 }
 
 const std::vector<PreparedMode::Slow>& PreparedMode::slow() const {

@@ -45,6 +45,9 @@ struct PreparedJump {
   PreparedReset reset;
   std::vector<PreparedAlternative> alternatives;
 
+  template <class Jump>
+  PreparedJump(const Jump& jump, Eigen::Index size)
+      : PreparedJump(jump.reset, jump.alternatives, size) {}
   PreparedJump(const AffineReset& reset, const std::vector<Alternative>& alternatives,
                Eigen::Index size);
 };

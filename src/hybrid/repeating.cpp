@@ -22,7 +22,7 @@ void for_each_guard(const AffineMode& mode, const MotionObserver& observer, Visi
 
 /// Bound of the rounding in a form's value.
 double rounding_of(const AffineForm& form, const Vector& state) {
-  return sum_rounding * (form.normal.cwiseAbs().dot(state.cwiseAbs()) + std::abs(form.offset));
+  return sum_rounding * form.size_at(state);
 }
 
 /// How far the forms of a tick's alternatives are from another choice. All of the one that is taken

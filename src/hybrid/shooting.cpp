@@ -16,7 +16,7 @@ using Index = Eigen::Index;
 bool is_moved(const AffineFlow& flow, const Vector& numbers) {
   constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
   const Vector terms = flow.matrix.cwiseAbs() * numbers.cwiseAbs() + flow.offset.cwiseAbs();
-  return (velocity(flow, numbers).array().abs() > rounding * terms.array()).any();
+  return (flow.velocity(numbers).array().abs() > rounding * terms.array()).any();
 }
 
 /// The period of what moves by itself, near the given one, by Newton's method on its distance from
@@ -25,7 +25,7 @@ double refined_period(const AffineFlow& flow, const Vector& numbers, double peri
   double refined = period;
   for (int i = 0; i < 20; ++i) {
     const Vector there = flown(flow, numbers, refined);
-    const Vector speed = velocity(flow, there);
+    const Vector speed = flow.velocity(there);
     refined -= speed.dot(there - numbers) / speed.squaredNorm();
   }
   return refined > 0.5 * period && refined < 2.0 * period ? refined : period;
@@ -153,8 +153,7 @@ void Shooting::divide(const Trajectory& motion, std::size_t phases) {
   for (std::size_t i = 0; i < times.size(); ++i) {
     const State here = motion.at(times[i]);
     const AffineFlow& flow = system_.system().mode(here.mode).flow;
-    const Vector normal =
-        ((flow.matrix * here.numbers + flow.offset).array() / sizes.array().square()).matrix();
+    const Vector normal = (flow.velocity(here.numbers).array() / sizes.array().square()).matrix();
     phases_.push_back({times[i] - motion.start_time(),
                        here.mode,
                        {normal, -normal.dot(here.numbers)},
@@ -231,7 +230,7 @@ Matrix Shooting::slope_of(const std::vector<Passage>& all) const {
     slope.block(i * size, i * size, size, size) += all[static_cast<std::size_t>(i)].slope;
     slope.block(i * size, next * size, size, size) -= Matrix::Identity(size, size);
   }
-  const Vector drift = velocity(exogenous_flow_, flown(exogenous_flow_, anchor_, shift()));
+  const Vector drift = exogenous_flow_.velocity(flown(exogenous_flow_, anchor_, shift()));
   for (Index n = 0; n < size; ++n) {
     if (!is_exogenous_[static_cast<std::size_t>(n)]) continue;
     const Index row = (phases - 1) * size + n;

@@ -62,8 +62,7 @@ class Nearness {
  private:
   double change_of(const AffineForm& form) const { return form.normal.cwiseAbs().dot(limit_.off); }
   double rounding_of(const AffineForm& form) const {
-    return sum_rounding *
-           (form.normal.cwiseAbs().dot(limit_.numbers.cwiseAbs()) + std::abs(form.offset));
+    return sum_rounding * form.size_at(limit_.numbers);
   }
 
   const RoundsLimit& limit_;

@@ -4,28 +4,16 @@
 #include "base/fault.hpp"
 #include "gearlash/hybrid.hpp"
 #include "hybrid/periodic_orbit.hpp"
+#include "numeric/elimination.hpp"
 
 namespace gearlash::hybrid {
 namespace {
-
-Vector vector_of(const Row& row) {
-  return Eigen::Map<const Vector>(row.data(), static_cast<Eigen::Index>(row.size()));
-}
 
 Row row_of(const Vector& vector) { return {vector.begin(), vector.end()}; }
 
 bool is_ragged(const std::vector<Row>& rows) {
   return std::any_of(rows.begin(), rows.end(),
                      [&](const Row& row) { return row.size() != rows.front().size(); });
-}
-
-/// Precondition: not ragged.
-Matrix matrix_of(const std::vector<Row>& rows) {
-  if (rows.empty()) return {};
-  const auto index = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
-  Matrix matrix(index(rows.size()), index(rows.front().size()));
-  for (std::size_t i = 0; i < rows.size(); ++i) matrix.row(index(i)) = vector_of(rows[i]);
-  return matrix;
 }
 
 AffineForm form_of(const Form& form) { return {vector_of(form.normal), form.offset}; }
@@ -45,7 +33,7 @@ struct System::Definition {
   }
 
   Matrix matrix(const std::string& where, const std::vector<Row>& rows) {
-    if (!is_ragged(rows)) return matrix_of(rows);
+    if (!is_ragged(rows)) return matrix_of(rows, rows.empty() ? 0 : rows.front().size());
     faults.push_back({where + ".matrix", "", "must have rows of one length", ""});
     return Matrix::Identity(system.size(), system.size());
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/names.hpp"
+
 namespace gearlash {
 
 std::size_t SearchRecord::count(const std::string& end) const {
@@ -56,81 +58,31 @@ bool hunts(Verdict verdict) {
 }
 
 const char* name_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::cannot_hunt:
-      return "cannot hunt";
-    case Verdict::comes_to_rest:
-      return "comes to rest";
-    case Verdict::hunts:
-      return "hunts";
-    case Verdict::hunts_if_disturbed:
-      return "hunts if disturbed";
-    case Verdict::hunts_irregularly:
-      return "hunts irregularly";
-    case Verdict::grows_without_bound:
-      return "grows without bound";
-    case Verdict::runs_away:
-      return "runs away";
-    case Verdict::runs_away_if_disturbed:
-      return "runs away if disturbed";
-    case Verdict::forced:
-      return "forced";
-    case Verdict::undamped:
-      return "undamped";
-    case Verdict::undecided:
-      return "undecided";
-  }
-  return "";
+  constexpr Names<Verdict::undecided> names(
+      "cannot hunt", "comes to rest", "hunts", "hunts if disturbed", "hunts irregularly",
+      "grows without bound", "runs away", "runs away if disturbed", "forced", "undamped",
+      "undecided");
+  return names[verdict];
 }
 
 const char* name_of(Certainty certainty) {
-  switch (certainty) {
-    case Certainty::searched:
-      return "searched";
-    case Certainty::computed:
-      return "computed";
-    case Certainty::enclosed:
-      return "enclosed";
-    case Certainty::theorem:
-      return "theorem";
-  }
-  return "";
+  constexpr Names<Certainty::theorem> names("searched", "computed", "enclosed", "theorem");
+  return names[certainty];
 }
 
 const char* name_of(CycleKind kind) {
-  switch (kind) {
-    case CycleKind::symmetric:
-      return "symmetric";
-    case CycleKind::asymmetric:
-      return "asymmetric";
-    case CycleKind::subharmonic:
-      return "subharmonic";
-  }
-  return "";
+  constexpr Names<CycleKind::subharmonic> names("symmetric", "asymmetric", "subharmonic");
+  return names[kind];
 }
 
 const char* name_of(Stability stability) {
-  switch (stability) {
-    case Stability::stable:
-      return "stable";
-    case Stability::neutral:
-      return "neutral";
-    case Stability::unstable:
-      return "unstable";
-  }
-  return "";
+  constexpr Names<Stability::unstable> names("stable", "neutral", "unstable");
+  return names[stability];
 }
 
 const char* name_of(RestKind kind) {
-  switch (kind) {
-    case RestKind::no_limit:
-      return "no limit";
-    case RestKind::dead_band:
-      return "dead band";
-    case RestKind::torque_limit:
-      return "torque limit";
-  }
-  return "";
+  constexpr Names<RestKind::torque_limit> names("no limit", "dead band", "torque limit");
+  return names[kind];
 }
 
 const char* name_of(Engine engine) { return engine == Engine::general ? "general" : "closed form"; }

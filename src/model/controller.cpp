@@ -62,18 +62,18 @@ LinearControllerOf<Interval> sampled_controller(const LinearControllerOf<Interva
 bool integrates(const LinearController& controller) {
   const std::size_t order = controller.order();
   if (order == 0) return false;
-  Eigen::MatrixXd velocity = forms::matrix_of(controller.state_matrix, order);
+  Eigen::MatrixXd velocity = matrix_of(controller.state_matrix, order);
   if (controller.is_of_samples) {
     velocity -= Eigen::MatrixXd::Identity(velocity.rows(), velocity.cols());
   }
-  return !all_solutions(velocity, forms::matrix_of(controller.input_matrix, 3).col(1));
+  return !all_solutions(velocity, matrix_of(controller.input_matrix, 3).col(1));
 }
 
 double spectral_radius(const LinearController& controller) {
   const std::size_t order = controller.order();
   if (order == 0) return 0.0;
   const double radius =
-      eigenvalues(forms::matrix_of(controller.state_matrix, order)).cwiseAbs().maxCoeff();
+      eigenvalues(matrix_of(controller.state_matrix, order)).cwiseAbs().maxCoeff();
   return std::isfinite(radius) ? radius : std::numeric_limits<double>::infinity();
 }
 

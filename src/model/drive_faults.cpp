@@ -88,13 +88,8 @@ void check_torques(RangeCheck& check, const Drive& drive) {
 
 void check_normal_form(RangeCheck& check, const Drive& drive) {
   const auto* rigid = std::get_if<RigidContact>(&drive.contact);
-  const NormalForm& form = *drive.servo;
-  const NormalizedServo servo{.damping = form.damping,
-                              .inertia_ratio = form.inertia_ratio,
-                              .friction_ratio = form.friction_ratio,
-                              .backlash = form.backlash,
-                              .restitution = rigid == nullptr ? 0.0 : rigid->restitution};
-  for (Fault fault : faults(servo)) {
+  const double restitution = rigid == nullptr ? 0.0 : rigid->restitution;
+  for (Fault fault : faults(servo_with_restitution(*drive.servo, restitution))) {
     if (fault.path == "restitution") continue;  // checked as a share
     fault.path = "servo." + fault.path;
     check.include({fault});

@@ -66,14 +66,9 @@ ProportionalServo servo_with(const Drive& drive, const Drivetrain& drivetrain) {
     servo.natural_frequency = natural_frequency(drivetrain);
     return servo;
   }
-  const NormalForm& form = *drive.servo;
   servo.is_as_given = true;
-  servo.natural_frequency = form.natural_frequency.value_or(1.0);
-  servo.servo = {.damping = form.damping,
-                 .inertia_ratio = form.inertia_ratio,
-                 .friction_ratio = form.friction_ratio,
-                 .backlash = form.backlash,
-                 .restitution = Reduction<AsRead>(drive).restitution()};
+  servo.natural_frequency = drive.servo->natural_frequency.value_or(1.0);
+  servo.servo = servo_with_restitution(*drive.servo, Reduction<AsRead>(drive).restitution());
   return servo;
 }
 
@@ -85,6 +80,14 @@ std::optional<ProportionalServo> servo_of(const Drive& drive, const drive::Reduc
 }
 
 }  // namespace
+
+NormalizedServo servo_with_restitution(const NormalForm& form, double restitution) {
+  return {.damping = form.damping,
+          .inertia_ratio = form.inertia_ratio,
+          .friction_ratio = form.friction_ratio,
+          .backlash = form.backlash,
+          .restitution = restitution};
+}
 
 std::optional<ProportionalServo> proportional_servo(const Drive& drive) {
   return servo_of(drive, reduce(drive));

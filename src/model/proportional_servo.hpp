@@ -24,6 +24,9 @@ struct ProportionalServo {
   std::optional<double> stiffness{};
 };
 
+/// A normal form, with the restitution of its contact.
+NormalizedServo servo_with_restitution(const NormalForm& form, double restitution);
+
 /// The conditions above, for faults.
 inline constexpr char permitted_with_servo[] =
     "must have a closed-form answer for this: proportional control of the load's position, "

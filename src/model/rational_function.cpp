@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "model/number_members.hpp"
 #include "numeric/transfer_polynomials.hpp"
 
 namespace gearlash::drive {
@@ -107,26 +108,18 @@ namespace {
 /// A controller with the anti-windup, if it acts, as one of its inputs:
 ///   τ − τ_asked = τ − output z − direct u.
 LinearControllerOf<Rational> exact(const LinearController& given, TorqueGiven torque) {
-  const std::size_t order = given.order();
   const bool winds_back = torque == TorqueGiven::limited && !given.anti_windup.empty();
-  const auto draw = [&](std::size_t i) {
-    return Rational(winds_back ? given.anti_windup[i] : 0.0);
-  };
   LinearControllerOf<Rational> result;
-  result.output.assign(given.output.begin(), given.output.end());
-  result.direct.assign(given.direct.begin(), given.direct.end());
-  result.direct.emplace_back(0);
-  for (std::size_t i = 0; i < order; ++i) {
-    result.state_matrix.emplace_back(given.state_matrix[i].begin(), given.state_matrix[i].end());
-    for (std::size_t j = 0; j < order; ++j) {
-      result.state_matrix[i][j] -= draw(i) * result.output[j];
+  set_numbers([](double from, Rational& to) { to = from; }, given, result);
+  for (std::size_t i = 0; i < result.order(); ++i) {
+    const Rational draw = winds_back ? result.anti_windup[i] : Rational(0);
+    for (std::size_t j = 0; j < result.order(); ++j) {
+      result.state_matrix[i][j] -= draw * result.output[j];
     }
-    std::vector<Rational>& inputs = result.input_matrix.emplace_back();
-    for (std::size_t j = 0; j < 3; ++j) {
-      inputs.push_back(Rational(given.input_matrix[i][j]) - draw(i) * result.direct[j]);
-    }
-    inputs.push_back(draw(i));
+    for (std::size_t j = 0; j < 3; ++j) result.input_matrix[i][j] -= draw * result.direct[j];
+    result.input_matrix[i].push_back(draw);
   }
+  result.direct.emplace_back(0);
   return result;
 }
 

@@ -11,24 +11,6 @@
 namespace gearlash::drive::forms {
 
 template <class Number>
-MatrixOf<Number> matrix_of(const std::vector<std::vector<Number>>& rows, std::size_t columns) {
-  MatrixOf<Number> matrix(static_cast<Eigen::Index>(rows.size()),
-                          static_cast<Eigen::Index>(columns));
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (std::size_t j = 0; j < columns; ++j) {
-      matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = rows[i][j];
-    }
-  }
-  return matrix;
-}
-
-template <class Number>
-VectorOf<Number> vector_of(const std::vector<Number>& numbers) {
-  return Eigen::Map<const VectorOf<Number>>(numbers.data(),
-                                            static_cast<Eigen::Index>(numbers.size()));
-}
-
-template <class Number>
 std::vector<Number> numbers_of(const VectorOf<Number>& vector) {
   return {vector.data(), vector.data() + vector.size()};
 }

@@ -22,10 +22,11 @@ using gearlash::Signal;
 /// A row is a stretch of its own, which a motion passes as a tick.
 inline constexpr std::size_t most_rows_of_a_table = 1'000'000;
 
-/// Every fault in the ranges of gearlash/signal.hpp; `field` is the signal's name.
+/// What the points of a table have wrong; all other numbers are parameters, with ranges of their
+/// own. `field` is the signal's name.
 std::vector<Fault> faults(const Signal& signal, const std::string& field);
 
-/// The other functions require that faults(signal) is empty.
+/// The other functions require a signal without faults.
 double value_at(const Signal& signal, double time);
 
 /// The signal's final behaviour: a sine itself; a ramp with its start moved to time 0; otherwise

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numeric>
 
 #include "numeric/linear_algebra.hpp"
 
@@ -50,38 +49,16 @@ Matrix middle(const IntervalMatrix& matrix) {
 
 // ---- the change of coordinates: floating point, proved afterwards -------------------------------
 
-/// Scales, powers of 2, that make rows and columns of D⁻¹AD alike (Osborne 1960).
-Vector balance(const Matrix& flow) {
-  constexpr int sweeps = 20;
-  const Index size = flow.rows();
-  Vector scale = Vector::Ones(size);
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    for (Index i = 0; i < size; ++i) {
-      double row = 0.0;
-      double column = 0.0;
-      for (Index j = 0; j < size; ++j) {
-        if (j == i) continue;
-        row += std::abs(flow(i, j)) * scale[j];
-        column += std::abs(flow(j, i)) / scale[j];
-      }
-      if (row > 0.0 && column > 0.0)
-        scale[i] = std::exp2(std::round(0.5 * std::log2(row / column)));
-    }
-  }
-  return scale;
-}
-
 struct Subspaces {
   Matrix basis;
   std::vector<Index> sizes;
 };
 
-/// The eigenvectors of the `count` smallest eigenvalues, real and imaginary parts of a conjugate
-/// pair, in order of falling modulus.
-Matrix slow_vectors(const Eigensystem& system, const std::vector<Index>& order, Index count) {
+/// The last eigenvectors, real and imaginary parts of a conjugate pair.
+Matrix slow_vectors(const Eigensystem& system, Index count) {
   Matrix result(system.vectors.rows(), count);
   for (Index i = 0; i < count; ++i) {
-    const Index k = order[order.size() - at(count - i)];
+    const Index k = system.values.size() - count + i;
     const auto vector = system.vectors.col(k);
     if (system.values[k].imag() >= 0.0) {
       result.col(i) = vector.real();
@@ -92,26 +69,16 @@ Matrix slow_vectors(const Eigensystem& system, const std::vector<Index>& order, 
   return result;
 }
 
-std::vector<Index> by_falling_modulus(const Eigen::VectorXcd& values) {
-  std::vector<Index> order(at(values.size()));
-  std::iota(order.begin(), order.end(), Index{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Index a, Index b) { return std::abs(values[a]) > std::abs(values[b]); });
-  return order;
-}
-
 /// Invariant subspaces by time scale, the fastest first: eigenvalues whose moduli differ by more
 /// than `apart` are in different ones. The fastest, which may have equal eigenvalues with one
-/// eigenvector (delays), is the complement of the others' left eigenvectors.
+/// eigenvector (delays), is the complement of the others' left eigenvectors. `system`: sorted.
 Subspaces by_time_scale(const Matrix& flow, const Eigensystem& system) {
   constexpr double apart = 4.0;
   const Index size = flow.rows();
-  const std::vector<Index> order = by_falling_modulus(system.values);
   Subspaces result{Matrix(size, size), {}};
   Index first = 0;
   for (Index i = 1; i <= size; ++i) {
-    if (i < size && std::abs(system.values[order[at(i - 1)]]) <=
-                        apart * std::abs(system.values[order[at(i)]])) {
+    if (i < size && std::abs(system.values[i - 1]) <= apart * std::abs(system.values[i])) {
       continue;
     }
     result.sizes.push_back(i - first);
@@ -122,10 +89,9 @@ Subspaces by_time_scale(const Matrix& flow, const Eigensystem& system) {
     result.basis = Matrix::Identity(size, size);
     return result;
   }
-  const Eigensystem left = eigensystem(flow.transpose());
-  result.basis.leftCols(size - slow) =
-      complement(slow_vectors(left, by_falling_modulus(left.values), slow));
-  result.basis.rightCols(slow) = slow_vectors(system, order, slow);
+  const Eigensystem left = sorted_eigensystem(flow.transpose());
+  result.basis.leftCols(size - slow) = complement(slow_vectors(left, slow));
+  result.basis.rightCols(slow) = slow_vectors(system, slow);
   first = size - slow;
   for (std::size_t k = 1; k < result.sizes.size(); first += result.sizes[k++]) {
     result.basis.middleCols(first, result.sizes[k]) =
@@ -295,9 +261,9 @@ std::optional<DecayingMotion> DecayingMotion::of(const IntervalMatrix& flow, Tim
 
 bool DecayingMotion::choose_basis(const Matrix& flow) {
   if (!flow.allFinite()) return false;
-  const Vector scale = balance(flow);
+  const Vector scale = balancing_scales(flow);
   const Matrix balanced = scale.cwiseInverse().asDiagonal() * flow * scale.asDiagonal();
-  const Eigensystem system = eigensystem(balanced);
+  const Eigensystem system = sorted_eigensystem(balanced);
   if (!decays(system.values, kind_)) return false;
   Subspaces subspaces = by_time_scale(balanced, system);
   if (subspaces.sizes.size() > 1) {

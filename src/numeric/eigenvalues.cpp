@@ -1,6 +1,9 @@
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <limits>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 #include "numeric/linear_algebra.hpp"
 
@@ -28,6 +31,16 @@ Eigensystem eigensystem(const Eigen::MatrixXd& matrix) {
   Eigen::VectorXcd values = values_of(solver, matrix.rows());
   if (solver.info() == Eigen::Success) return {std::move(values), solver.eigenvectors()};
   return {values, values.replicate(1, matrix.cols())};
+}
+
+Eigensystem sorted_eigensystem(const Eigen::MatrixXd& matrix) {
+  const auto [values, vectors] = eigensystem(matrix);
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::stable_sort(order.begin(), order.end(), [&values = values](Eigen::Index a, Eigen::Index b) {
+    return std::abs(values[a]) > std::abs(values[b]);
+  });
+  return {values(order), vectors(Eigen::all, order)};
 }
 
 Eigen::Vector3cd eigenvalues(const Eigen::Matrix3d& matrix) {

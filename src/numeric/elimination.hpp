@@ -3,7 +3,9 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <cstddef>
 #include <type_traits>
+#include <vector>
 
 #include "base/number.hpp"
 
@@ -22,6 +24,24 @@ template <class Number>
 using MatrixOf = Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic>;
 template <class Number>
 using VectorOf = Eigen::Matrix<Number, Eigen::Dynamic, 1>;
+
+template <class Number>
+MatrixOf<Number> matrix_of(const std::vector<std::vector<Number>>& rows, std::size_t columns) {
+  MatrixOf<Number> matrix(static_cast<Eigen::Index>(rows.size()),
+                          static_cast<Eigen::Index>(columns));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t j = 0; j < columns; ++j) {
+      matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = rows[i][j];
+    }
+  }
+  return matrix;
+}
+
+template <class Number>
+VectorOf<Number> vector_of(const std::vector<Number>& numbers) {
+  return Eigen::Map<const VectorOf<Number>>(numbers.data(),
+                                            static_cast<Eigen::Index>(numbers.size()));
+}
 
 /// factor · left · right. Products with an exact 0 are left out: sums with them would be widened.
 template <class Number, class Left, class Right>

@@ -154,12 +154,6 @@ double sum_of_sizes(const std::vector<double>& numbers) {
   return sum * rounded_up;
 }
 
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
-}
-
 /// What a form sees of a block.
 struct View {
   std::vector<double> output;

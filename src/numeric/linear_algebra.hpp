@@ -12,8 +12,11 @@ namespace gearlash {
 /// numbers in units of very different sizes cost no digits.
 Eigen::MatrixXd exponential(const Eigen::MatrixXd& matrix);
 
-/// With its numbers in other units, by powers of 2, so that the sums of sizes of each row and its
-/// column are alike (Parlett & Reinsch 1969). The eigenvalues are the same, and lose fewer digits.
+/// Units of the numbers, powers of 2, in which the sums of sizes of each row and its column,
+/// without the diagonal, are alike (Osborne 1960; Parlett & Reinsch 1969, but nothing is permuted).
+Eigen::VectorXd balancing_scales(Eigen::MatrixXd matrix);
+
+/// In these units. The eigenvalues are the same, and lose fewer digits.
 Eigen::MatrixXd balanced(const Eigen::MatrixXd& matrix);
 
 /// All eigenvalues, by the QR algorithm.
@@ -24,6 +27,8 @@ struct Eigensystem {
   Eigen::MatrixXcd vectors;  ///< column i belongs to value i
 };
 Eigensystem eigensystem(const Eigen::MatrixXd& matrix);
+/// The same, the values by falling modulus.
+Eigensystem sorted_eigensystem(const Eigen::MatrixXd& matrix);
 
 /// Solves matrix x = right by elimination with partial pivoting. Precondition: not singular.
 Eigen::VectorXd solved(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);

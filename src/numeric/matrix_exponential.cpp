@@ -5,22 +5,18 @@
 #include "numeric/linear_algebra.hpp"
 
 namespace gearlash {
-namespace {
 
-/// Powers of 2 by which the numbers are divided so that each row's sum of sizes is about that of
-/// its column, without the diagonal (Parlett & Reinsch 1969; here rows and columns are only
-/// scaled).
 Eigen::VectorXd balancing_scales(Eigen::MatrixXd matrix) {
   const Eigen::Index size = matrix.rows();
+  matrix.diagonal().setZero();
   Eigen::VectorXd scales = Eigen::VectorXd::Ones(size);
   constexpr int most_rounds = 30;
   bool is_balanced = false;
   for (int round = 0; round < most_rounds && !is_balanced; ++round) {
     is_balanced = true;
     for (Eigen::Index i = 0; i < size; ++i) {
-      const double diagonal = std::abs(matrix(i, i));
-      double column = matrix.col(i).cwiseAbs().sum() - diagonal;
-      double row = matrix.row(i).cwiseAbs().sum() - diagonal;
+      double column = matrix.col(i).cwiseAbs().sum();
+      double row = matrix.row(i).cwiseAbs().sum();
       // Nothing acts on the number, or it acts on nothing: the other sum becomes about 1.
       if (row == 0.0 && column > 1.0) row = 1.0 / column;
       if (column == 0.0 && row > 1.0) column = 1.0 / row;
@@ -36,6 +32,8 @@ Eigen::VectorXd balancing_scales(Eigen::MatrixXd matrix) {
   }
   return scales;
 }
+
+namespace {
 
 Eigen::MatrixXd scaled_by(const Eigen::VectorXd& scales, const Eigen::MatrixXd& matrix) {
   return scales.cwiseInverse().asDiagonal() * matrix * scales.asDiagonal();

@@ -85,13 +85,6 @@ std::vector<Complex> roots_of(const std::vector<double>& polynomial) {
 
 // ---- Bounds of one factor jω − root, d = ω − Im root, x = Re root.
 
-struct FactorBounds {
-  Bounds log_gain;
-  Bounds phase;
-  Bounds log_gain_slope;
-  Bounds phase_slope;
-};
-
 struct Distances {
   double low;
   double high;
@@ -139,22 +132,13 @@ Bounds phase_slope_bounds(double real, const Distances& d) {
   return {std::min(nearest, farthest), std::max(nearest, farthest)};
 }
 
-FactorBounds factor_bounds(const Complex& root, double low, double high) {
+ResponseBounds factor_bounds(const Complex& root, double low, double high) {
   const Distances d = distances(root.imag(), low, high);
   return {
       {std::log(std::hypot(root.real(), d.nearest)), std::log(std::hypot(root.real(), d.farthest))},
       phase_bounds(root.real(), d),
       log_gain_slope_bounds(root.real(), d),
       phase_slope_bounds(root.real(), d)};
-}
-
-void add(Bounds& sum, const Bounds& term) {
-  sum.low += term.low;
-  sum.high += term.high;
-}
-void subtract(Bounds& sum, const Bounds& term) {
-  sum.low -= term.high;
-  sum.high -= term.low;
 }
 
 }  // namespace
@@ -192,20 +176,17 @@ ResponseBounds response_bounds(const FactoredTransferFunction& transfer, double 
                      {phase - delay * high, phase - delay * low},
                      {0.0, 0.0},
                      {-delay, -delay}};
-  for (const Complex& zero : transfer.zeros) {
-    const FactorBounds factor = factor_bounds(zero, low, high);
-    add(sum.log_gain, factor.log_gain);
-    add(sum.phase, factor.phase);
-    add(sum.log_gain_slope, factor.log_gain_slope);
-    add(sum.phase_slope, factor.phase_slope);
-  }
-  for (const Complex& pole : transfer.poles) {
-    const FactorBounds factor = factor_bounds(pole, low, high);
-    subtract(sum.log_gain, factor.log_gain);
-    subtract(sum.phase, factor.phase);
-    subtract(sum.log_gain_slope, factor.log_gain_slope);
-    subtract(sum.phase_slope, factor.phase_slope);
-  }
+  const auto include = [&](const Complex& root, bool divides) {
+    const ResponseBounds factor = factor_bounds(root, low, high);
+    for (const auto part : {&ResponseBounds::log_gain, &ResponseBounds::phase,
+                            &ResponseBounds::log_gain_slope, &ResponseBounds::phase_slope}) {
+      const Bounds& term = factor.*part;
+      (sum.*part).low += divides ? -term.high : term.low;
+      (sum.*part).high += divides ? -term.low : term.high;
+    }
+  };
+  for (const Complex& zero : transfer.zeros) include(zero, false);
+  for (const Complex& pole : transfer.poles) include(pole, true);
   return sum;
 }
 

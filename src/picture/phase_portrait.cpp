@@ -104,7 +104,7 @@ std::optional<StartPlane> plane_to_draw(const MotionPicture& cycles,
     plane.position = std::max(plane.position, margin * reach.position);
     plane.speed = std::max(plane.speed, margin * reach.speed);
   }
-  for (const drive::FoundThreshold& threshold : search.thresholds) {
+  for (const Threshold& threshold : search.thresholds) {
     if (hunting > 0.0 && threshold.from > far * hunting) continue;
     plane.position = std::max(plane.position, 1.5 * margin * threshold.from);
   }

@@ -10,6 +10,7 @@
 
 #include "base/arithmetic.hpp"
 #include "base/interval.hpp"
+#include "base/names.hpp"
 #include "base/number.hpp"
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
@@ -103,19 +104,9 @@ IrregularMotion irregular_of(const drive::IrregularFound& found) {
 }
 
 const char* name_of(drive::MotionEnd end) {
-  switch (end) {
-    case drive::MotionEnd::rest:
-      return "rest";
-    case drive::MotionEnd::cycle:
-      return "cycle";
-    case drive::MotionEnd::irregular:
-      return "irregular";
-    case drive::MotionEnd::diverges:
-      return "diverges";
-    case drive::MotionEnd::undecided:
-      return "undecided";
-  }
-  return "";
+  constexpr Names<drive::MotionEnd::undecided> names("rest", "cycle", "irregular", "diverges",
+                                                     "undecided");
+  return names[end];
 }
 
 /// Takes equilibria for where it rests: the ends are those where no torque limit acts.
@@ -291,13 +282,7 @@ Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive
   }
   answer.verdict = verdict_of(search, reduced, answer.irregular);
   answer.rests_engaged = search.rests_until_disturbed;
-  for (const drive::FoundThreshold& found : search.thresholds) {
-    const bool runs_away = found.end == drive::MotionEnd::diverges;
-    answer.thresholds.push_back({.end = runs_away ? "running away" : "hunting",
-                                 .direction = found.direction,
-                                 .below = found.below,
-                                 .from = found.from});
-  }
+  answer.thresholds = search.thresholds;
   if (search.rest) answer.rest = rest_of(search, reduced);
   answer.search = SearchRecord{.watch_time = search.watch_time,
                                .is_complete = search.is_complete,

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/decimal_multiples.hpp"
+#include "base/names.hpp"
 #include "base/range_check.hpp"
 #include "closed_form/trajectory.hpp"
 #include "general/assemble/time_scale.hpp"
@@ -19,19 +20,9 @@ namespace {
 // ---- closed form --------------------------------------------------------------------------------
 
 const char* text_of(Mode mode) {
-  switch (mode) {
-    case Mode::engaged_forward:
-      return "forward";
-    case Mode::engaged_backward:
-      return "backward";
-    case Mode::separated:
-      return "apart";
-    case Mode::settling:
-      return "bouncing to rest";
-    case Mode::no_gap:
-      return "together, no gap";
-  }
-  return "";
+  constexpr Names<Mode::no_gap> names("forward", "backward", "apart", "bouncing to rest",
+                                      "together, no gap");
+  return names[mode];
 }
 
 const char* text_of(const Event& event) {
@@ -124,24 +115,14 @@ Shafts shafts_of(const drive::ShaftStates& state) {
   return {state.load_position, state.load_speed, state.motor_position, state.motor_speed};
 }
 
+/// The reasons are the same ones, in the same order.
 MotionStop stop_of(hybrid::StopReason reason) {
-  switch (reason) {
-    case hybrid::StopReason::reached_end:
-      return MotionStop::reached_end;
-    case hybrid::StopReason::event_limit:
-      return MotionStop::event_limit;
-    case hybrid::StopReason::step_limit:
-      return MotionStop::step_limit;
-    case hybrid::StopReason::zeno:
-      return MotionStop::zeno;
-    case hybrid::StopReason::chattering:
-      return MotionStop::chattering;
-    case hybrid::StopReason::diverged:
-      return MotionStop::diverged;
-    case hybrid::StopReason::stopped:
-      return MotionStop::stopped;
-  }
-  return MotionStop::reached_end;
+  static_assert(static_cast<int>(MotionStop::reached_end) ==
+                    static_cast<int>(hybrid::StopReason::reached_end) &&
+                static_cast<int>(MotionStop::zeno) == static_cast<int>(hybrid::StopReason::zeno) &&
+                static_cast<int>(MotionStop::stopped) ==
+                    static_cast<int>(hybrid::StopReason::stopped));
+  return static_cast<MotionStop>(reason);
 }
 
 std::string stop_text_of(const hybrid::Trajectory& trajectory) {
@@ -422,23 +403,9 @@ Engine Motion::engine() const noexcept { return source_->engine; }
 std::optional<EnergyBooks> Motion::energy() const { return source_->energy(); }
 
 const char* name_of(MotionStop stop) {
-  switch (stop) {
-    case MotionStop::reached_end:
-      return "reached_end";
-    case MotionStop::event_limit:
-      return "event_limit";
-    case MotionStop::step_limit:
-      return "step_limit";
-    case MotionStop::zeno:
-      return "zeno";
-    case MotionStop::chattering:
-      return "chattering";
-    case MotionStop::diverged:
-      return "diverged";
-    case MotionStop::stopped:
-      return "stopped";
-  }
-  return "";
+  constexpr Names<MotionStop::stopped> names("reached_end", "event_limit", "step_limit", "zeno",
+                                             "chattering", "diverged", "stopped");
+  return names[stop];
 }
 
 }  // namespace gearlash

@@ -1,9 +1,7 @@
 #include "question/step_response.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -11,6 +9,7 @@
 #include "base/range_check.hpp"
 #include "general/assemble/time_scale.hpp"
 #include "general/attractors/motion_measures.hpp"
+#include "numeric/zero_between.hpp"
 #include "question/motion.hpp"
 
 namespace gearlash::drive {
@@ -19,17 +18,19 @@ namespace {
 /// The load's path along the step: all its turning points, with samples between them.
 class Path {
  public:
-  Path(const hybrid::Trajectory& motion, double way) : motion_(motion), way_(way) {
-    std::vector<double> times;
+  Path(const hybrid::Trajectory& motion, double way) : motion_(motion) {
+    const auto along = [&](Eigen::Index number) {
+      return hybrid::AffineForm{way * hybrid::Vector::Unit(motion.end().numbers.size(), number)};
+    };
+    position_ = along(load_position);
+    points_ = rough_samples(motion, {position_, along(load_speed), {}});
     constexpr int samples = 4096;
-    for (int i = 0; i <= samples; ++i) times.push_back(motion.end_time() * i / samples);
-    for (const hybrid::Event& event : motion.events()) times.push_back(event.time);
-    std::sort(times.begin(), times.end());
-    times.erase(std::unique(times.begin(), times.end()), times.end());
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      if (i > 0) add_turning(times[i - 1], times[i]);
-      points_.push_back({times[i], position(times[i])});
+    for (int i = 0; i <= samples; ++i) {
+      const double time = motion.end_time() * i / samples;
+      points_.push_back({time, position(time)});
     }
+    std::stable_sort(points_.begin(), points_.end(),
+                     [](const Sample& a, const Sample& b) { return a.time < b.time; });
   }
 
   const std::vector<Sample>& points() const { return points_; }
@@ -57,37 +58,17 @@ class Path {
   }
 
  private:
-  double position(double time) const { return way_ * motion_.at(time).numbers[load_position]; }
-  double speed(double time) const { return motion_.at(time).numbers[load_speed]; }
-
-  template <class Function>
-  static double root(const Function& function, double low, double high) {
-    const double at_low = function(low);
-    const double at_high = function(high);
-    if (at_low == 0.0) return low;
-    if (!(at_low * at_high < 0.0)) return high;
-    std::uintmax_t most = 100;
-    const auto close = [](double a, double b) {
-      return b - a <= 4.0 * std::numeric_limits<double>::epsilon() * b;
-    };
-    const auto [below, above] =
-        boost::math::tools::toms748_solve(function, low, high, at_low, at_high, close, most);
-    return 0.5 * (below + above);
-  }
+  double position(double time) const { return position_.at(motion_.at(time).numbers); }
 
   double passing_between(std::size_t first, std::size_t second, double level) const {
-    return root([&](double time) { return position(time) - level; }, points_[first].time,
-                points_[second].time);
-  }
-
-  void add_turning(double low, double high) {
-    if (!(speed(low) * speed(high) < 0.0)) return;
-    const double turning = root([&](double time) { return speed(time); }, low, high);
-    points_.push_back({turning, position(turning)});
+    const auto& [low, at_low] = points_[first];
+    const auto& [high, at_high] = points_[second];
+    return zero_between(low, high, at_low - level, at_high - level,
+                        [&](double time) { return position(time) - level; });
   }
 
   const hybrid::Trajectory& motion_;
-  double way_;
+  hybrid::AffineForm position_;
   std::vector<Sample> points_;
 };
 

@@ -22,10 +22,7 @@ std::vector<NormalizedServo> charted_servos() {
       for (const double inertia_ratio : charted_inertia_ratios) {
         const bool in_figure_2_or_3 = tenth == 1 || inertia_ratio == 1.0;
         if (friction_ratio == 0.04 && !in_figure_2_or_3) continue;
-        servos.push_back({.damping = tenth / 10.0,
-                          .inertia_ratio = inertia_ratio,
-                          .friction_ratio = friction_ratio,
-                          .backlash = charted_backlash});
+        servos.push_back(charted_servo(tenth / 10.0, inertia_ratio, friction_ratio));
       }
     }
   }

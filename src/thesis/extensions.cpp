@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/special_numbers.hpp"
+#include "gearlash/grid.hpp"
 #include "thesis/exact_curve.hpp"
 #include "thesis/figures.hpp"
 
@@ -41,20 +42,6 @@ NamedCurve bouncing_curve(std::string name, const std::vector<double>& places,
   return result;
 }
 
-std::vector<double> evenly(double low, double high, int count) {
-  std::vector<double> places;
-  for (int i = 0; i < count; ++i) places.push_back(low + (high - low) * i / (count - 1));
-  return places;
-}
-
-std::vector<double> evenly_in_logarithm(double low, double high, int count) {
-  std::vector<double> places;
-  for (const double exponent : evenly(std::log(low), std::log(high), count)) {
-    places.push_back(std::exp(exponent));
-  }
-  return places;
-}
-
 Plot plot_over(PlotAxis x, const char* title, const char* subtitle,
                const std::vector<NamedCurve>& curves, const char* mark_meaning,
                const char* end_meaning) {
@@ -83,13 +70,10 @@ Extension zero_friction_and_inertia() {
                                                               {"J_L/J_M 4", 4.0},
                                                               {"massless motor", infinity}};
   for (const auto& [name, ratio] : ratios) {
-    curves.push_back(
-        named_curve(name, evenly(0.0, 1.0, 201), [ratio = ratio](double friction_ratio) {
-          return NormalizedServo{.damping = 0.2,
-                                 .inertia_ratio = ratio,
-                                 .friction_ratio = friction_ratio,
-                                 .backlash = charted_backlash};
-        }));
+    curves.push_back(named_curve(name, linear("friction ratio", 0.0, 1.0, 201).values,
+                                 [ratio = ratio](double friction_ratio) {
+                                   return charted_servo(0.2, ratio, friction_ratio);
+                                 }));
   }
   result.plot = plot_over(
       {.name = "friction ratio, load friction to total friction", .low = 0.0, .high = 1.0},
@@ -109,13 +93,9 @@ Extension wide_inertia_ratios() {
           "the servo swings by two to three times the backlash, from 0.4 on it comes to rest."};
   std::vector<NamedCurve> curves;
   for (int tenth = 1; tenth <= charted_dampings; ++tenth) {
-    curves.push_back(named_curve(fmt::format("damping 0.{}", tenth),
-                                 evenly_in_logarithm(1e-3, 1e3, 601), [tenth](double ratio) {
-                                   return NormalizedServo{.damping = tenth / 10.0,
-                                                          .inertia_ratio = ratio,
-                                                          .friction_ratio = 0.2,
-                                                          .backlash = charted_backlash};
-                                 }));
+    curves.push_back(named_curve(
+        fmt::format("damping 0.{}", tenth), logarithmic("inertia ratio", 1e-3, 1e3, 601).values,
+        [tenth](double ratio) { return charted_servo(tenth / 10.0, ratio, 0.2); }));
   }
   result.plot = plot_over(
       {.name = "inertia ratio, load to motor", .logarithmic = true, .low = 1e-3, .high = 1e3},
@@ -144,14 +124,12 @@ Extension elastic_contact(Progress& progress) {
   constexpr std::array dampings = {0.1, 0.19, 0.3, 0.5};
   for (const double damping : dampings) {
     const auto servo_at = [damping](double restitution) {
-      return NormalizedServo{.damping = damping,
-                             .inertia_ratio = 2.0,
-                             .friction_ratio = 0.1,
-                             .backlash = charted_backlash,
-                             .restitution = restitution};
+      NormalizedServo servo = charted_servo(damping, 2.0, 0.1);
+      servo.restitution = restitution;
+      return servo;
     };
-    curves.push_back(
-        bouncing_curve(fmt::format("damping {}", damping), evenly(0.0, 1.0, 51), servo_at));
+    curves.push_back(bouncing_curve(fmt::format("damping {}", damping),
+                                    linear("restitution", 0.0, 1.0, 51).values, servo_at));
     if (!progress.go_on(static_cast<double>(curves.size()) / dampings.size())) break;
   }
   result.plot = plot_over({.name = "restitution", .low = 0.0, .high = 1.0},

@@ -8,6 +8,7 @@
 
 #include "base/progress_part.hpp"
 #include "base/special_numbers.hpp"
+#include "gearlash/grid.hpp"
 #include "thesis/exact_curve.hpp"
 #include "thesis/settled_cycle.hpp"
 
@@ -28,10 +29,7 @@ std::vector<FigureCurve> by_damping(double inertia_ratio, double friction_ratio)
   std::vector<FigureCurve> curves;
   for (int tenth = 1; tenth <= charted_dampings; ++tenth) {
     curves.push_back({fmt::format("damping 0.{}", tenth),
-                      {.damping = tenth / 10.0,
-                       .inertia_ratio = inertia_ratio,
-                       .friction_ratio = friction_ratio,
-                       .backlash = charted_backlash}});
+                      charted_servo(tenth / 10.0, inertia_ratio, friction_ratio)});
   }
   return curves;
 }
@@ -40,11 +38,7 @@ std::vector<FigureCurve> by_inertia_ratio(const std::vector<double>& ratios,
                                           double friction_ratio) {
   std::vector<FigureCurve> curves;
   for (const double ratio : ratios) {
-    curves.push_back({"J_L/J_M " + ratio_text(ratio),
-                      {.damping = 0.1,
-                       .inertia_ratio = ratio,
-                       .friction_ratio = friction_ratio,
-                       .backlash = charted_backlash}});
+    curves.push_back({"J_L/J_M " + ratio_text(ratio), charted_servo(0.1, ratio, friction_ratio)});
   }
   return curves;
 }
@@ -68,9 +62,9 @@ std::vector<Figure> make_figures() {
            "coefficient 0.1",
            Along::backlash,
            backlashes,
-           {{"friction ratio 0.04", {0.1, 1.0, 0.04, charted_backlash}},
-            {"friction ratio 0.2", {0.1, 1.0, 0.2, charted_backlash}},
-            {"friction ratio 1.0", {0.1, 1.0, 1.0, charted_backlash}}}},
+           {{"friction ratio 0.04", charted_servo(0.1, 1.0, 0.04)},
+            {"friction ratio 0.2", charted_servo(0.1, 1.0, 0.2)},
+            {"friction ratio 1.0", charted_servo(0.1, 1.0, 1.0)}}},
           {6, "Size of limit cycle for friction ratio of 0.2 and damping coefficient of 0.1",
            Along::backlash, backlashes, by_inertia_ratio({1.0 / 4.0, 1.0, 4.0}, 0.2)},
           design_chart(7, 0.1),
@@ -82,17 +76,11 @@ std::vector<Figure> make_figures() {
 
 /// The places of the continuum, from end to end of the grid.
 std::vector<double> places(const Figure& figure) {
-  constexpr int count = 400;
-  const double low = figure.along == Along::backlash ? 0.0 : figure.grid.front();
+  constexpr std::size_t count = 401;
   const double high = figure.grid.back();
-  std::vector<double> result;
-  for (int i = 0; i <= count; ++i) {
-    const double share = static_cast<double>(i) / count;
-    result.push_back(figure.along == Along::backlash ? low + share * (high - low)
-                                                     : low * std::pow(high / low, share));
-  }
-  result.back() = high;
-  return result;
+  return figure.along == Along::backlash
+             ? linear("backlash", 0.0, high, count).values
+             : logarithmic("ratio", figure.grid.front(), high, count).values;
 }
 
 PlotAxis axis_of(const Figure& figure) {
@@ -130,12 +118,7 @@ PhaseFigure phase_figure(int number, double damping, double inertia_ratio, doubl
                       "backlash 0.3; marks every 0.08 s",
                       inertia_ratio < 1.0 ? "0.25" : ratio_text(inertia_ratio), friction_ratio,
                       damping),
-          {.damping = damping,
-           .inertia_ratio = inertia_ratio,
-           .friction_ratio = friction_ratio,
-           .backlash = charted_backlash},
-          until,
-          mark_size};
+          charted_servo(damping, inertia_ratio, friction_ratio), until, mark_size};
 }
 
 struct PhaseCurves {
@@ -180,6 +163,13 @@ void add_program(const PhaseFigure& figure, PhaseCurves& curves) {
 }
 
 }  // namespace
+
+NormalizedServo charted_servo(double damping, double inertia_ratio, double friction_ratio) {
+  return {.damping = damping,
+          .inertia_ratio = inertia_ratio,
+          .friction_ratio = friction_ratio,
+          .backlash = charted_backlash};
+}
 
 const std::vector<PhaseFigure>& thesis_phase_figures() {
   static const std::vector<PhaseFigure> figures = {

@@ -17,6 +17,9 @@ inline constexpr int charted_dampings = 6;       ///< 0.1 … 0.6
 inline constexpr std::array charted_inertia_ratios = {1.0 / 9.0, 1.0 / 4.0, 1.0, 4.0, 9.0};
 inline constexpr std::array charted_friction_ratios = {0.04, 0.1, 0.2, 0.4, 0.6, 1.0};
 
+/// A servo with their backlash.
+NormalizedServo charted_servo(double damping, double inertia_ratio, double friction_ratio);
+
 /// The parameter of a figure's axis.
 enum class Along { friction_ratio, backlash, inertia_ratio };
 

@@ -60,7 +60,7 @@ void Machine1604::provide(unsigned address, HostRoutine routine) {
   routines_[address] = std::move(routine);
 }
 
-void Machine1604::start_at(unsigned address) {
+void Machine1604::jump(unsigned address) {
   registers_.p = address;
   registers_.in_lower = false;
 }
@@ -74,11 +74,6 @@ unsigned Machine1604::address_of(const Instruction& instruction) const {
   constexpr unsigned indirect = 7;
   if (instruction.designator == indirect) fault("indirect addressing is not provided");
   return index_total(instruction.operand, registers_.index[instruction.designator]);
-}
-
-void Machine1604::jump(unsigned address) {
-  registers_.p = address;
-  registers_.in_lower = false;
 }
 
 void Machine1604::return_jump(unsigned address) {

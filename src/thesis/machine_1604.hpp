@@ -88,13 +88,12 @@ class Machine1604 {
   using Trace = std::function<void(const Registers&, const Instruction&)>;
   void set_trace(Trace trace) { trace_ = std::move(trace); }
 
-  void start_at(unsigned address);
+  void jump(unsigned address);
   /// Executes one instruction.
   void step();
 
  private:
   unsigned address_of(const Instruction& instruction) const;
-  void jump(unsigned address);
   void return_jump(unsigned address);
   void advance();
   void exit_fully_if(bool condition);

@@ -43,7 +43,7 @@ ThesisMachine::ThesisMachine(FloatRules rules) : machine_(rules) {
     contact_printed_ = contact_printed_ || line_.at_contact;
     return return_address + 1;  // after the word with the buffer and the line's number
   });
-  machine_.start_at(start);
+  machine_.jump(start);
 }
 
 void ThesisMachine::set(const ProgramParameters& parameters) {

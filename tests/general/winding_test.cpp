@@ -109,8 +109,8 @@ TEST(OracleCurrentLimit, HoldsTheTorqueUntilTheBackEmfTakesTheRest) {
       EXPECT_NEAR(motion.at(time).numbers[motor_speed], way * speed(time), 1e-11) << time;
     }
     EXPECT_EQ(built.modes.mode(motion.at(0.5 * leaves).mode).current,
-              way > 0.0 ? TorqueState::highest : TorqueState::lowest);
-    EXPECT_EQ(built.modes.mode(motion.end().mode).current, TorqueState::linear);
+              way > 0.0 ? Branch::forward : Branch::backward);
+    EXPECT_EQ(built.modes.mode(motion.end().mode).current, Branch::inner);
   }
 }
 

@@ -17,7 +17,7 @@ Machine1604 run(const std::string& program, int steps) {
   for (const auto& [address, word] : assemble(read_program("\tORG\t\t100\n" + program)).words) {
     machine.write(address, word);
   }
-  machine.start_at(0100);
+  machine.jump(0100);
   for (int i = 0; i < steps; ++i) machine.step();
   return machine;
 }

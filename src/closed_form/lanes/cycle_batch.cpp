@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/names.hpp"
 #include "closed_form/lanes/cycle_kernel.hpp"
 
 namespace gearlash {
@@ -152,15 +153,8 @@ VectorUnit widest_vector_unit() {
 }
 
 const char* name_of(VectorUnit unit) {
-  switch (unit) {
-    case VectorUnit::baseline:
-      return "baseline";
-    case VectorUnit::avx2:
-      return "avx2";
-    case VectorUnit::avx512:
-      return "avx512";
-  }
-  return "";
+  constexpr Names<VectorUnit::avx512> names("baseline", "avx2", "avx512");
+  return names[unit];
 }
 
 namespace {

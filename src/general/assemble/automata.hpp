@@ -1,8 +1,10 @@
 // The automata of a drive, each of which adds its own transitions to a mode.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <initializer_list>
+#include <string>
 #include <vector>
 
 #include "general/assemble/drive_forms.hpp"
@@ -11,7 +13,7 @@ namespace gearlash::drive {
 
 // ---- transitions --------------------------------------------------------------------------------
 
-hybrid::Transition transition(const char* name, const hybrid::AffineForm& guard,
+hybrid::Transition transition(std::string name, const hybrid::AffineForm& guard,
                               hybrid::Direction direction, std::size_t target);
 
 /// Direction in which a form that is positive (`way` = +1) or negative (−1) loses its sign.
@@ -22,6 +24,17 @@ inline hybrid::Direction falling_on(double way) {
 inline hybrid::Direction rising_on(double way) {
   return way > 0.0 ? hybrid::Direction::rising : hybrid::Direction::falling;
 }
+
+/// A form, beyond or within ± a number.
+struct BranchEdge {
+  hybrid::AffineForm form;
+  double size;
+};
+/// From the inner branch to an outer one beyond `begins`, and back within `ends`. `names`: of the
+/// events forward, backward and inwards.
+void add_branches(const DriveForms& forms, const DriveMode& mode, Branch DriveMode::*automaton,
+                  const BranchEdge& begins, const BranchEdge& ends,
+                  const std::array<const char*, 3>& names, hybrid::AffineMode& built);
 
 /// A reset that sets speeds to exactly 0.
 hybrid::AffineReset stopped(const DriveForms& forms, std::initializer_list<Eigen::Index> speeds);

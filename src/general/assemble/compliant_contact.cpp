@@ -28,8 +28,7 @@ void add_compliance(const DriveForms& forms, const DriveMode& mode, hybrid::Affi
   const bool limited = damped && forms.compliant().law == ContactDamping::limited;
   const auto add = [&](const char* name, const hybrid::AffineForm& guard,
                        hybrid::Direction direction, ContactState contact) {
-    DriveMode target = mode;
-    target.contact = contact;
+    const DriveMode target = with(mode, &DriveMode::contact, contact);
     built.transitions.push_back(transition(name, guard, direction, forms.modes().index_of(target)));
   };
   const auto pressed = [&](double face) {

@@ -124,19 +124,18 @@ AffineForm DriveForms::driving_torque(const DriveMode& mode) const {
 
 AffineForm DriveForms::motor_torque(const DriveMode& mode) const {
   if (at_.winding != StateIndices::none) return number(at_.winding);
-  if (mode.current == TorqueState::linear) return limited_torque(mode);
-  const double way = mode.current == TorqueState::highest ? 1.0 : -1.0;
-  return drive_.winding.back_emf * number(motor_speed) + way * drive_.winding.torque_limit;
+  if (mode.current == Branch::inner) return limited_torque(mode);
+  return drive_.winding.back_emf * number(motor_speed) +
+         sign_of(mode.current) * drive_.winding.torque_limit;
 }
 
 AffineForm DriveForms::limited_torque(const DriveMode& mode) const {
-  if (mode.torque == TorqueState::highest) return constant(drive_.torque_limit);
-  if (mode.torque == TorqueState::lowest) return constant(-drive_.torque_limit);
-  return asked_torque(mode);
+  if (mode.torque == Branch::inner) return asked_torque(mode);
+  return constant(sign_of(mode.torque) * drive_.torque_limit);
 }
 
 AffineForm DriveForms::withdrawal(const DriveMode& mode, std::size_t state) const {
-  if (controller_.anti_windup.empty() || mode.torque == TorqueState::linear) return constant(0.0);
+  if (controller_.anti_windup.empty() || mode.torque == Branch::inner) return constant(0.0);
   return controller_.anti_windup[state] * (limited_torque(mode) - asked_torque(mode));
 }
 
@@ -194,8 +193,8 @@ AffineForm DriveForms::engaged_acceleration(const DriveMode& mode) const {
 AffineForm DriveForms::acceleration(const DriveMode& mode, Side side) const {
   if (stands(mode, side)) return constant(0.0);
   if (is_engaged(mode)) return engaged_acceleration(mode);
-  const FrictionState state = side == Side::motor ? mode.motor : mode.load;
-  return 1.0 / shaft(side).inertia * (applied_torque(mode, side) - friction_torque(side, state));
+  return 1.0 / shaft(side).inertia *
+         (applied_torque(mode, side) - friction_torque(side, mode.*friction_of(side)));
 }
 
 hybrid::AffineFlow DriveForms::flow(const DriveMode& mode) const {
@@ -212,7 +211,7 @@ hybrid::AffineFlow DriveForms::flow(const DriveMode& mode) const {
   set(motor_speed, acceleration(mode, Side::motor));
   if (!stands(mode, Side::load)) set(load_position, number(load_speed));
   set(load_speed, acceleration(mode, Side::load));
-  if (at_.winding != StateIndices::none && mode.current == TorqueState::linear) {
+  if (at_.winding != StateIndices::none && mode.current == Branch::inner) {
     set(at_.winding,
         1.0 / drive_.winding.time_constant * (driving_torque(mode) - number(at_.winding)));
   }

@@ -1,6 +1,7 @@
 // A drive's torques, positions and accelerations as affine forms of the state, in each mode.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "general/assemble/affine_sum.hpp"
@@ -109,6 +110,10 @@ class DriveForms {
   DriveModes modes_;
 };
 
+inline std::string name_of(Side side) { return side == Side::motor ? "motor" : "load"; }
 inline Eigen::Index speed_of(Side side) { return side == Side::motor ? motor_speed : load_speed; }
+inline FrictionState DriveMode::*friction_of(Side side) {
+  return side == Side::motor ? &DriveMode::motor : &DriveMode::load;
+}
 
 }  // namespace gearlash::drive

@@ -4,26 +4,23 @@
 #include <array>
 #include <cmath>
 
+#include "base/names.hpp"
+
 namespace gearlash::drive {
 namespace {
 
 const char* text_of(ContactState contact) {
-  constexpr std::array<const char*, 8> names = {"apart",
-                                                "forward",
-                                                "backward",
-                                                "forward, damping limited",
-                                                "backward, damping limited",
-                                                "forward, letting go",
-                                                "backward, letting go",
-                                                "joined"};
-  return names[static_cast<std::size_t>(contact)];
+  constexpr Names<ContactState::joined> names(
+      "apart", "forward", "backward", "forward, damping limited", "backward, damping limited",
+      "forward, letting go", "backward, letting go", "joined");
+  return names[contact];
 }
 
 const char* text_of(FrictionState friction) {
-  constexpr std::array<const char*, 6> names = {
-      "",       "moves forward",        "moves backward",
-      "sticks", "moves slowly forward", "moves slowly backward"};
-  return names[static_cast<std::size_t>(friction)];
+  constexpr Names<FrictionState::backward_slowly> names("", "moves forward", "moves backward",
+                                                        "sticks", "moves slowly forward",
+                                                        "moves slowly backward");
+  return names[friction];
 }
 
 std::vector<ContactState> contacts_of(const ReducedDrive& drive) {
@@ -47,9 +44,10 @@ std::vector<FrictionState> frictions_of(const Shaft& shaft) {
   return {forward, backward, sticking, forward_slowly, backward_slowly};
 }
 
-std::string text_of(const char* what, Branch branch) {
+std::string text_of(const char* what, Branch branch, const char* forward = " forward",
+                    const char* backward = " backward") {
   if (branch == Branch::inner) return {};
-  return std::string("; ") + what + (branch == Branch::forward ? " forward" : " backward");
+  return std::string("; ") + what + (branch == Branch::forward ? forward : backward);
 }
 
 constexpr std::size_t branches = 3;  // of an automaton that a drive has
@@ -110,6 +108,11 @@ double sign_of(Branch branch) {
   return branch == Branch::forward ? 1.0 : -1.0;
 }
 
+Branch branch_of(double sign) {
+  if (sign == 0.0) return Branch::inner;
+  return sign > 0.0 ? Branch::forward : Branch::backward;
+}
+
 FrictionState moving(const Shaft& shaft, double way) {
   if (!shaft.friction.is_dry()) return FrictionState::viscous;
   if (way == 0.0) return FrictionState::sticking;
@@ -140,10 +143,8 @@ std::string text_of(const DriveMode& mode) {
   std::string text = text_of(mode.contact);
   if (mode.motor != FrictionState::viscous) text += std::string("; motor ") + text_of(mode.motor);
   if (mode.load != FrictionState::viscous) text += std::string("; load ") + text_of(mode.load);
-  if (mode.torque == TorqueState::highest) text += "; torque at its highest";
-  if (mode.torque == TorqueState::lowest) text += "; torque at its lowest";
-  if (mode.current == TorqueState::highest) text += "; current at its highest";
-  if (mode.current == TorqueState::lowest) text += "; current at its lowest";
+  text += text_of("torque", mode.torque, " at its highest", " at its lowest");
+  text += text_of("current", mode.current, " at its highest", " at its lowest");
   text += text_of("error", mode.error);
   return text + text_of("reference", mode.reference_speed);
 }
@@ -213,9 +214,9 @@ DriveMode DriveModes::mode(std::size_t index) const {
       return {.contact = contact,
               .motor = motor,
               .load = load,
-              .torque = static_cast<TorqueState>(states[0]),
-              .current = static_cast<TorqueState>(states[1]),
-              .worked_out = static_cast<TorqueState>(states[2]),
+              .torque = static_cast<Branch>(states[0]),
+              .current = static_cast<Branch>(states[1]),
+              .worked_out = static_cast<Branch>(states[2]),
               .error = static_cast<Branch>(states[3]),
               .reference_speed = static_cast<Branch>(states[4]),
               .reference_way = static_cast<Branch>(states[5])};

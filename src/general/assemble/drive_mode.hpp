@@ -29,24 +29,30 @@ enum class FrictionState {
   forward_slowly,  ///< below the Stribeck speed, where the dry friction falls
   backward_slowly
 };
-enum class TorqueState { linear, highest, lowest };
-/// The branch of an odd function of pieces.
+/// The branch of an odd function of pieces: a limit, a dead band, a relay.
 enum class Branch { inner, forward, backward };
 
 struct DriveMode {
   ContactState contact = ContactState::apart;
   FrictionState motor = FrictionState::viscous;
   FrictionState load = FrictionState::viscous;
-  TorqueState torque = TorqueState::linear;
-  TorqueState current = TorqueState::linear;  ///< of a winding's torque
+  Branch torque = Branch::inner;   ///< of its limit
+  Branch current = Branch::inner;  ///< of the limit of a winding's torque
   /// Of the last torque that a sampled controller worked out, where it is not the one held.
-  TorqueState worked_out = TorqueState::linear;
+  Branch worked_out = Branch::inner;
   Branch error = Branch::inner;            ///< of ReducedDrive::error_shape
   Branch reference_speed = Branch::inner;  ///< of the feedforward of friction
   Branch reference_way = Branch::inner;    ///< last motion of the reference; inner before the first
 
   bool operator==(const DriveMode&) const = default;
 };
+
+/// The mode with one of its automata in another state.
+template <class State>
+DriveMode with(DriveMode mode, State DriveMode::*automaton, State state) {
+  mode.*automaton = state;
+  return mode;
+}
 
 /// The contact's state with the gap closed: joined, or on the forward face.
 ContactState closed_contact(const ReducedDrive& drive);
@@ -59,6 +65,8 @@ double way_of(FrictionState friction);
 
 /// +1, −1, or 0 on the inner branch.
 double sign_of(Branch branch);
+/// The branch of this sign.
+Branch branch_of(double sign);
 
 /// The state of a shaft as it begins to move in a direction, or sticks (0).
 FrictionState moving(const Shaft& shaft, double way);

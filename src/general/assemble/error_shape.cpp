@@ -4,17 +4,6 @@
 #include "general/assemble/automata.hpp"
 
 namespace gearlash::drive {
-namespace {
-
-constexpr Branch outer_branches[] = {Branch::forward, Branch::backward};
-
-DriveMode on(const DriveMode& mode, Branch branch) {
-  DriveMode target = mode;
-  target.error = branch;
-  return target;
-}
-
-}  // namespace
 
 Branch first_branch(const ErrorShape& shape, double input) {
   if (!shape.is_two_level()) return Branch::inner;
@@ -25,25 +14,17 @@ void add_error_shape(const DriveForms& forms, const DriveMode& mode, hybrid::Aff
   const ErrorShape& shape = forms.drive().error_shape;
   if (!shape.is_present()) return;
   const hybrid::AffineForm input = forms.shape_input(mode);
-  const auto add = [&](const char* name, const hybrid::AffineForm& guard,
-                       hybrid::Direction direction, Branch branch) {
-    built.transitions.push_back(
-        transition(name, guard, direction, forms.modes().index_of(on(mode, branch))));
-  };
-  if (mode.error == Branch::inner) {
-    add("error leaves its band forward", input - shape.begins, hybrid::Direction::rising,
-        Branch::forward);
-    add("error leaves its band backward", input + shape.begins, hybrid::Direction::falling,
-        Branch::backward);
-    return;
-  }
   const double way = sign_of(mode.error);
-  if (shape.is_two_level()) {
-    add("relay switches", input - way * shape.ends, falling_on(way),
-        way > 0.0 ? Branch::backward : Branch::forward);
+  if (shape.is_two_level() && way != 0.0) {
+    const DriveMode other = with(mode, &DriveMode::error, branch_of(-way));
+    built.transitions.push_back(transition("relay switches", input - way * shape.ends,
+                                           falling_on(way), forms.modes().index_of(other)));
     return;
   }
-  add("error enters its band", input - way * shape.ends, falling_on(way), Branch::inner);
+  add_branches(
+      forms, mode, &DriveMode::error, {input, shape.begins}, {input, shape.ends},
+      {"error leaves its band forward", "error leaves its band backward", "error enters its band"},
+      built);
 }
 
 void add_error_reading(const DriveForms& forms, std::size_t clock, const DriveMode& mode,
@@ -68,14 +49,17 @@ void add_error_reading(const DriveForms& forms, std::size_t clock, const DriveMo
                 -1.0 / period * read);
     add_reading(reading.reset, forms.number(at.last_reading), 0.0, 1.0 / period * read);
   }
-  for (const Branch branch : outer_branches) {
+  const auto on = [&](Branch branch) {
+    return forms.modes().index_of(with(mode, &DriveMode::error, branch));
+  };
+  for (const Branch branch : {Branch::forward, Branch::backward}) {
     const double threshold = mode.error == branch ? shape.ends : shape.begins;
-    reading.alternatives.push_back({{sign_of(branch) * forms.number(at.error) - threshold},
-                                    forms.modes().index_of(on(mode, branch))});
+    reading.alternatives.push_back(
+        {{sign_of(branch) * forms.number(at.error) - threshold}, on(branch)});
   }
   // Between its thresholds a relay with two levels stays as it is.
   const bool stays = shape.is_two_level() && mode.error != Branch::inner;
-  reading.target = forms.modes().index_of(on(mode, stays ? mode.error : Branch::inner));
+  reading.target = on(stays ? mode.error : Branch::inner);
   built.timed.push_back(std::move(reading));
 }
 

@@ -24,12 +24,6 @@ double least_speed(const DriveForms& forms) {
   return rounding * fastest_reference(forms);
 }
 
-DriveMode with_speed(const DriveMode& mode, Branch branch) {
-  DriveMode target = mode;
-  target.reference_speed = branch;
-  return target;
-}
-
 /// The speed at which the feedforward of friction is complete.
 double whole_speed(const DriveForms& forms) {
   return std::max(forms.drive().feedforward.speed, least_speed(forms));
@@ -39,17 +33,9 @@ void add_speed(const DriveForms& forms, const DriveMode& mode, hybrid::AffineMod
   if (forms.drive().feedforward.torque == 0.0) return;
   const hybrid::AffineForm speed = forms.reference_speed();
   const double whole = whole_speed(forms);
-  const auto to = [&](Branch branch) { return forms.modes().index_of(with_speed(mode, branch)); };
-  if (mode.reference_speed == Branch::inner) {
-    built.transitions.push_back(transition("reference moves forward", speed - whole,
-                                           hybrid::Direction::rising, to(Branch::forward)));
-    built.transitions.push_back(transition("reference moves backward", speed + whole,
-                                           hybrid::Direction::falling, to(Branch::backward)));
-    return;
-  }
-  const double way = sign_of(mode.reference_speed);
-  built.transitions.push_back(
-      transition("reference slows down", speed - way * whole, falling_on(way), to(Branch::inner)));
+  add_branches(forms, mode, &DriveMode::reference_speed, {speed, whole}, {speed, whole},
+               {"reference moves forward", "reference moves backward", "reference slows down"},
+               built);
 }
 
 /// The last motion, which is remembered.
@@ -59,8 +45,7 @@ void add_way(const DriveForms& forms, const DriveMode& mode, hybrid::AffineMode&
   for (const Branch branch : {Branch::forward, Branch::backward}) {
     if (branch == mode.reference_way) continue;
     const double way = sign_of(branch);
-    DriveMode target = mode;
-    target.reference_way = branch;
+    const DriveMode target = with(mode, &DriveMode::reference_way, branch);
     built.transitions.push_back(transition(
         way > 0.0 ? "reference turns forward" : "reference turns backward",
         speed - way * least_speed(forms), rising_on(way), forms.modes().index_of(target)));
@@ -77,21 +62,21 @@ void add_feedforward(const DriveForms& forms, const DriveMode& mode, hybrid::Aff
 DriveMode first_feedforward(const DriveForms& forms, const hybrid::Vector& start) {
   const Feedforward& forward = forms.drive().feedforward;
   const double speed = forms.reference_speed().at(start);
-  const auto branch_of = [&](double least) {
-    if (std::abs(speed) <= least) return Branch::inner;
-    return speed > 0.0 ? Branch::forward : Branch::backward;
+  const auto beyond = [&](double least) {
+    return branch_of(std::abs(speed) <= least ? 0.0 : speed);
   };
   DriveMode mode;
-  if (forward.torque != 0.0) mode.reference_speed = branch_of(whole_speed(forms));
-  if (forward.half_gap != 0.0) mode.reference_way = branch_of(least_speed(forms));
+  if (forward.torque != 0.0) mode.reference_speed = beyond(whole_speed(forms));
+  if (forward.half_gap != 0.0) mode.reference_way = beyond(least_speed(forms));
   return mode;
 }
 
 std::vector<hybrid::Alternative> reference_speeds(const DriveForms& forms, const DriveMode& mode) {
   std::vector<hybrid::Alternative> alternatives;
   for (const Branch branch : {Branch::forward, Branch::backward}) {
-    alternatives.push_back({{sign_of(branch) * forms.reference_speed() - whole_speed(forms)},
-                            forms.modes().index_of(with_speed(mode, branch))});
+    alternatives.push_back(
+        {{sign_of(branch) * forms.reference_speed() - whole_speed(forms)},
+         forms.modes().index_of(with(mode, &DriveMode::reference_speed, branch))});
   }
   return alternatives;
 }

@@ -23,18 +23,11 @@ class Rewriter {
     hybrid::AffineFlow& flow = mode.flow;
     flow.offset = divided(flow.matrix * frame_.shift + flow.offset - frame_.drift);
     flow.matrix = similar(flow.matrix);
-    for (hybrid::Transition& transition : mode.transitions) {
-      rewrite(transition.guard);
-      rewrite(transition.reset);
-      rewrite(transition.alternatives);
-      if (!transition.settling) continue;
-      rewrite(transition.settling->reset);
-      rewrite(transition.settling->alternatives);
-    }
-    for (hybrid::TimedTransition& timed : mode.timed) {
-      rewrite(timed.reset);
-      rewrite(timed.alternatives);
-    }
+    for (hybrid::Transition& transition : mode.transitions) rewrite(transition.guard);
+    for_each_jump(mode, [this](auto& jump) {
+      rewrite(jump.reset);
+      rewrite(jump.alternatives);
+    });
   }
 
  private:
@@ -99,18 +92,14 @@ bool is_kept(const AffineReset& reset, const Vector& way) {
 }
 
 bool leaves_mode_unchanged(const hybrid::AffineMode& mode, const Vector& way) {
-  return is_nothing(mode.flow.matrix, way) &&
-         std::all_of(
-             mode.transitions.begin(), mode.transitions.end(),
-             [&](const hybrid::Transition& transition) {
-               return is_unseen(transition.guard, way) && is_kept(transition.reset, way) &&
-                      is_unseen(transition.alternatives, way) &&
-                      (!transition.settling || (is_kept(transition.settling->reset, way) &&
-                                                is_unseen(transition.settling->alternatives, way)));
-             }) &&
-         std::all_of(mode.timed.begin(), mode.timed.end(), [&](const auto& timed) {
-           return is_kept(timed.reset, way) && is_unseen(timed.alternatives, way);
-         });
+  bool leaves = is_nothing(mode.flow.matrix, way);
+  for (const hybrid::Transition& transition : mode.transitions) {
+    leaves = leaves && is_unseen(transition.guard, way);
+  }
+  for_each_jump(mode, [&](const auto& jump) {
+    leaves = leaves && is_kept(jump.reset, way) && is_unseen(jump.alternatives, way);
+  });
+  return leaves;
 }
 
 }  // namespace

@@ -76,8 +76,8 @@ std::vector<hybrid::Alternative> ways_after(const DriveForms& forms, const Drive
 void add_impact(const DriveForms& forms, const DriveMode& mode, double face,
                 hybrid::AffineMode& built) {
   const double restitution = std::get<RigidContact>(forms.drive().contact).restitution;
-  DriveMode engaged = mode;
-  engaged.contact = face > 0.0 ? ContactState::forward : ContactState::backward;
+  const DriveMode engaged =
+      with(mode, &DriveMode::contact, face > 0.0 ? ContactState::forward : ContactState::backward);
   const bool plastic = restitution == 0.0;
   hybrid::Transition meets =
       transition(face > 0.0 ? "impact forward" : "impact backward",
@@ -123,16 +123,12 @@ void add_engaged_breakaway(const DriveForms& forms, const DriveMode& mode,
   }
   const double face = face_of(mode.contact);
   const auto add_alone = [&](Side side, double away) {
-    const bool is_motor = side == Side::motor;
-    DriveMode alone = mode;
-    alone.contact = ContactState::apart;
-    FrictionState& state = is_motor ? alone.motor : alone.load;
-    state = moving(forms.shaft(side), away);
-    const AffineForm torque = is_motor ? motor_torque : forms.torque_on_load();
-    hybrid::Transition breaks =
-        transition(is_motor ? "motor breaks away alone" : "load breaks away alone",
-                   torque - away * forms.shaft(side).friction.breakaway, rising_on(away),
-                   forms.modes().index_of(alone));
+    DriveMode alone = with(mode, &DriveMode::contact, ContactState::apart);
+    alone.*friction_of(side) = moving(forms.shaft(side), away);
+    const AffineForm torque = side == Side::motor ? motor_torque : forms.torque_on_load();
+    hybrid::Transition breaks = transition(name_of(side) + " breaks away alone",
+                                           torque - away * forms.shaft(side).friction.breakaway,
+                                           rising_on(away), forms.modes().index_of(alone));
     breaks.reset = parting(forms, face);
     built.transitions.push_back(std::move(breaks));
   };
@@ -153,8 +149,7 @@ void add_engaged(const DriveForms& forms, const DriveMode& mode, hybrid::AffineM
     return;
   }
   const double face = face_of(mode.contact);
-  DriveMode apart = mode;
-  apart.contact = ContactState::apart;
+  const DriveMode apart = with(mode, &DriveMode::contact, ContactState::apart);
   const AffineForm mesh = forms.drive().load.inertia * forms.engaged_acceleration(mode) +
                           forms.friction_torque(Side::load, mode.load) - forms.torque_on_load();
   hybrid::Transition parts =

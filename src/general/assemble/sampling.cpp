@@ -13,10 +13,10 @@ using hybrid::AffineForm;
 using hybrid::AffineReset;
 using hybrid::Vector;
 
-/// A torque that a tick sets, and the state of its limit.
+/// A torque that a tick sets, and the branch of its limit.
 struct SetTorque {
   Eigen::Index at;
-  TorqueState DriveMode::*state;
+  Branch DriveMode::*branch;
 };
 
 /// A tick of the controller's clocks. The torques that it sets reach or leave the torque limit.
@@ -32,9 +32,7 @@ hybrid::TimedTransition tick(const DriveForms& forms, const char* name, std::siz
     std::vector<Way> next;
     for (const double sign : {1.0, -1.0, 0.0}) {
       for (Way way : ways) {
-        way.mode.*torque.state = sign > 0.0   ? TorqueState::highest
-                                 : sign < 0.0 ? TorqueState::lowest
-                                              : TorqueState::linear;
+        way.mode.*torque.branch = branch_of(sign);
         if (sign != 0.0) {
           way.conditions.push_back(sign * forms.number(torque.at) - forms.drive().torque_limit);
         }
@@ -62,11 +60,10 @@ hybrid::TimedTransition tick(const DriveForms& forms, const char* name, std::siz
 /// The last torque worked out less its excess over the limit, and less itself.
 AffineForm excess_withheld(const DriveForms& forms, const DriveMode& mode) {
   const bool remembers = remembers_worked_out(forms.drive());
-  const TorqueState state = remembers ? mode.worked_out : mode.torque;
-  if (state == TorqueState::linear) return forms.constant(0.0);
-  const double limit = forms.drive().torque_limit;
+  const Branch branch = remembers ? mode.worked_out : mode.torque;
+  if (branch == Branch::inner) return forms.constant(0.0);
   const StateIndices& at = forms.at();
-  return forms.constant(state == TorqueState::highest ? limit : -limit) -
+  return forms.constant(sign_of(branch) * forms.drive().torque_limit) -
          forms.number(remembers ? at.last_worked_out : at.held);
 }
 

@@ -45,8 +45,7 @@ void add_settings(const DriveForms& forms, const DriveClocks& clocks, const Driv
     timed.target = forms.modes().index_of(mode);
     if (setting.at == forms.at().reference && forms.drive().feedforward.torque != 0.0) {
       timed.alternatives = reference_speeds(forms, mode);
-      DriveMode still = mode;
-      still.reference_speed = Branch::inner;
+      const DriveMode still = with(mode, &DriveMode::reference_speed, Branch::inner);
       timed.target = forms.modes().index_of(still);
     }
     built.timed.push_back(std::move(timed));

@@ -113,14 +113,6 @@ struct Edge {
   std::optional<std::size_t> cycle;
 };
 
-/// From what step on, in one direction, a drive does not come to rest.
-struct FoundThreshold {
-  MotionEnd end = MotionEnd::cycle;  ///< cycle, of irregular motion too, or diverges
-  double direction = 0.0;            ///< 1, −1; 0 for both
-  double below = 0.0;                ///< rad, the largest step that is known not to lead to it
-  double from = 0.0;                 ///< rad, the smallest step that is known to
-};
-
 struct AttractorSearch {
   double band = 0.0;  ///< rad, of times to rest
   Coordinates coordinates = Coordinates::fixed;
@@ -130,7 +122,7 @@ struct AttractorSearch {
   std::vector<IrregularFound> irregular;  ///< by falling amplitude; of the motor alone last
   std::vector<Outcome> outcomes;          ///< of every start, in order
   std::vector<Edge> edges;
-  std::vector<FoundThreshold> thresholds;
+  std::vector<Threshold> thresholds;
   /// s, of the linear loop with faces together: 2π/|slowest eigenvalue that oscillates|, or the
   /// slowest of all if none does. At least a sine's period and ten samples.
   double swing_time = 0.0;

@@ -1,13 +1,14 @@
 #include "general/attractors/motion_measures.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <utility>
 
+#include "hybrid/disturbances.hpp"
 #include "numeric/linear_algebra.hpp"
+#include "numeric/zero_between.hpp"
 
 namespace gearlash::drive {
 namespace {
@@ -19,21 +20,7 @@ using hybrid::State;
 using hybrid::Trajectory;
 using hybrid::Vector;
 
-/// The flow of each mode alone, with events where a form changes its sign.
-HybridSystem turning_system(const HybridSystem& system, const hybrid::AffineForm& speed) {
-  HybridSystem result;
-  result.state_names = system.state_names;
-  result.source = hybrid::ModeSource(system.mode_count(), [system, speed](std::size_t index) {
-    hybrid::AffineMode alone;
-    alone.flow = system.mode(index).flow;
-    alone.transitions.push_back({});
-    alone.transitions.back().guard = speed;
-    alone.transitions.back().direction = hybrid::Direction::either;
-    alone.transitions.back().target = index;
-    return alone;
-  });
-  return result;
-}
+constexpr unsigned bits_of_time = 40;
 
 /// Calls visit(start, from, to, end) for each stretch between events, including those of no
 /// duration. `end` is the state before the event there.
@@ -53,46 +40,26 @@ void for_each_stretch(const Trajectory& motion, Visit&& visit) {
   visit(here, time, motion.end_time(), motion.end().numbers);
 }
 
-/// The time derivative in a mode.
-Vector velocity(const HybridSystem& system, std::size_t mode, const Vector& numbers) {
-  return system.mode(mode).flow.matrix * numbers + system.mode(mode).flow.offset;
-}
-
-const hybrid::AffineReset& reset_of(const hybrid::AffineMode& mode, const Event& event) {
-  if (event.kind == hybrid::EventKind::timed) return mode.timed[event.transition].reset;
-  const hybrid::Transition& transition = mode.transitions[event.transition];
-  return event.kind == hybrid::EventKind::settling ? transition.settling->reset : transition.reset;
-}
-
-/// A disturbance of the state, and the delay of the last event that it causes.
-struct Disturbance {
-  Vector numbers;
-  double delay = 0.0;
-};
-
-/// Carries a disturbance over an event. An event that another one causes at its own instant has
-/// that one's delay. If a guard is met at no speed there is no derivative, and the delay stays
-/// unchanged.
-void carry_over(const HybridSystem& system, const Event& event, bool is_chained,
-                Disturbance& disturbance) {
-  const hybrid::AffineMode& mode = system.mode(event.mode);
-  const Matrix reset = reset_of(mode, event).slope(system.size());
-  const Vector before = velocity(system, event.mode, event.before);
-  const Vector after = velocity(system, event.mode_after, event.after);
-  if (event.kind == hybrid::EventKind::timed) {
-    disturbance.delay = 0.0;
-  } else if (!is_chained) {
-    const Vector& normal = mode.transitions[event.transition].guard.normal;
-    const double speed = normal.dot(before);
-    if (speed != 0.0) disturbance.delay = -normal.dot(disturbance.numbers) / speed;
-  }
-  disturbance.numbers = reset * disturbance.numbers - (after - reset * before) * disturbance.delay;
-}
-
 }  // namespace
 
+HybridSystem with_turns(const HybridSystem& system, const hybrid::AffineForm& speed,
+                        OtherEvents others) {
+  const bool are_kept = others == OtherEvents::kept;
+  HybridSystem result = are_kept ? system : HybridSystem{.state_names = system.state_names};
+  result.modes.clear();
+  result.source = hybrid::ModeSource(system.mode_count(), [system, speed,
+                                                           are_kept](std::size_t index) {
+    hybrid::AffineMode mode = system.mode(index);
+    if (!are_kept) mode = {.flow = std::move(mode.flow)};
+    mode.transitions.push_back(
+        {.name = "turns", .guard = speed, .direction = hybrid::Direction::either, .target = index});
+    return mode;
+  });
+  return result;
+}
+
 Watched watched(const HybridSystem& system, hybrid::AffineForm value, hybrid::AffineForm speed) {
-  hybrid::PreparedSystem turns(turning_system(system, speed));
+  hybrid::PreparedSystem turns(with_turns(system, speed, OtherEvents::left_out));
   return {std::move(value), std::move(speed), std::move(turns)};
 }
 
@@ -111,21 +78,6 @@ std::vector<Sample> samples(const Trajectory& motion, const Watched& watched) {
   return result;
 }
 
-namespace {
-
-/// The zero of a continuous function between two times at which its values have unlike signs. Late
-/// in a long motion both may be the same number.
-template <class Function>
-double zero_between(double from, double to, double value, double value_after, Function&& function) {
-  if (!(from < to)) return from;
-  std::uintmax_t most = 30;
-  const auto [left, right] = boost::math::tools::toms748_solve(
-      function, from, to, value, value_after, boost::math::tools::eps_tolerance<double>(40), most);
-  return 0.5 * (left + right);
-}
-
-}  // namespace
-
 std::vector<Sample> rough_samples(const Trajectory& motion, const Watched& watched) {
   std::vector<Sample> result;
   std::size_t step = 0;
@@ -135,10 +87,11 @@ std::vector<Sample> rough_samples(const Trajectory& motion, const Watched& watch
     double before = watched.speed.at(start.numbers);
     const auto pass = [&](double until, double after) {
       if (before * after < 0.0) {
-        const double turn = zero_between(from, until, before, after, [&](double time) {
+        const auto speed_at = [&](double time) {
           motion.at(time, here);
           return watched.speed.at(here.numbers);
-        });
+        };
+        const double turn = zero_between(from, until, before, after, speed_at, bits_of_time);
         motion.at(turn, here);
         result.push_back({turn, watched.value.at(here.numbers)});
       }
@@ -224,9 +177,11 @@ std::vector<double> upward_passings(const Trajectory& motion, const Watched& wat
     const Sample& low = samples[i];
     const Sample& high = samples[i + 1];
     if (low.time < after || low.value >= level || high.value < level) continue;
-    times.push_back(zero_between(
-        low.time, high.time, low.value - level, high.value - level,
-        [&](double time) { return watched.value.at(motion.at(time).numbers) - level; }));
+    const auto above_at = [&](double time) {
+      return watched.value.at(motion.at(time).numbers) - level;
+    };
+    times.push_back(zero_between(low.time, high.time, low.value - level, high.value - level,
+                                 above_at, bits_of_time));
   }
   return times;
 }
@@ -287,10 +242,11 @@ class Exponentials {
 }  // namespace
 
 double largest_exponent(const HybridSystem& system, const Trajectory& motion, Eigen::Index own) {
-  Disturbance disturbance{Vector::Zero(system.size())};
+  Matrix disturbance = Matrix::Zero(system.size(), 1);
+  Eigen::RowVectorXd delay = Eigen::RowVectorXd::Zero(1);
   // A direction with a component along any growing one.
   for (Eigen::Index i = 0; i < own; ++i) {
-    disturbance.numbers[i] = 1.0 / std::sqrt(2.0 + static_cast<double>(i));
+    disturbance(i, 0) = 1.0 / std::sqrt(2.0 + static_cast<double>(i));
   }
   double logarithm = 0.0;
   std::size_t next = 0;
@@ -299,19 +255,17 @@ double largest_exponent(const HybridSystem& system, const Trajectory& motion, Ei
   const double duration = motion.end_time() - motion.start_time();
   Exponentials exponentials(system, share * duration / static_cast<double>(events.size() + 1));
   for_each_stretch(motion, [&](const State& start, double from, double to, const Vector&) {
-    if (to > from) {
-      disturbance.numbers = exponentials.of(start.mode, to - from) * disturbance.numbers;
-    }
+    if (to > from) disturbance = exponentials.of(start.mode, to - from) * disturbance;
     if (next == events.size()) return;
     const bool is_chained = next > 0 && events[next].time == events[next - 1].time;
-    carry_over(system, events[next++], is_chained, disturbance);
-    const double size = disturbance.numbers.norm();
+    carry_over(system, start.mode, events[next++], is_chained, disturbance, delay);
+    const double size = disturbance.norm();
     if (!(size > 0.0)) return;
     logarithm += std::log(size);
-    disturbance.numbers /= size;
-    disturbance.delay /= size;
+    disturbance /= size;
+    delay /= size;
   });
-  const double last = disturbance.numbers.norm();
+  const double last = disturbance.norm();
   if (last == 0.0) return -std::numeric_limits<double>::infinity();
   return (logarithm + std::log(last)) / duration;
 }

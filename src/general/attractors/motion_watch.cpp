@@ -315,7 +315,7 @@ bool hardly_changes(const Watch& watch, const SearchSetting& setting,
 bool trembles_at_rest(const Watch& watch, const SearchSetting& setting,
                       const RestTolerances& tolerances) {
   const hybrid::AffineFlow& flow = setting.system.system().mode(watch.here.mode).flow;
-  const hybrid::Vector velocity = flow.matrix * watch.here.numbers + flow.offset;
+  const hybrid::Vector velocity = flow.velocity(watch.here.numbers);
   return hardly_changes(watch, setting, tolerances, [&](std::size_t i) {
     return std::abs(velocity[static_cast<Eigen::Index>(i)]) * setting.swing_time;
   });

@@ -64,23 +64,6 @@ void choose_coordinates(SearchSetting& setting) {
   }
 }
 
-/// The same system with events where the load turns.
-hybrid::HybridSystem turning(const hybrid::HybridSystem& system, const AffineForm& speed) {
-  hybrid::HybridSystem result = system;
-  result.source =
-      hybrid::ModeSource(system.mode_count(), [from = system.source, speed](std::size_t index) {
-        hybrid::AffineMode mode = from.mode(index);
-        hybrid::Transition turns;
-        turns.name = "load turns";
-        turns.guard = speed;
-        turns.direction = hybrid::Direction::either;
-        turns.target = index;
-        mode.transitions.push_back(std::move(turns));
-        return mode;
-      });
-  return result;
-}
-
 void look(SearchSetting& setting) {
   const hybrid::HybridSystem system = seen_in(setting.built.system, setting.frame);
   setting.system = hybrid::PreparedSystem(system);
@@ -101,7 +84,8 @@ void look(SearchSetting& setting) {
   };
   setting.load = watched_at(load_position, load_speed);
   setting.motor = watched_at(motor_position, motor_speed);
-  setting.with_turns = hybrid::PreparedSystem(turning(system, setting.load.speed));
+  setting.with_turns =
+      hybrid::PreparedSystem(with_turns(system, setting.load.speed, OtherEvents::kept));
 }
 
 // ---- lengths ------------------------------------------------------------------------------------

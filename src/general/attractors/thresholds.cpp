@@ -35,10 +35,10 @@ std::vector<Step> steps_towards(double direction, double reference,
 
 }  // namespace
 
-std::vector<FoundThreshold> thresholds_of(
-    const SearchSetting& setting, const std::vector<Outcome>& outcomes, int bisections,
-    const std::function<MotionEnd(const ShaftStates&)>& end_of) {
-  std::vector<FoundThreshold> thresholds;
+std::vector<Threshold> thresholds_of(const SearchSetting& setting,
+                                     const std::vector<Outcome>& outcomes, int bisections,
+                                     const std::function<MotionEnd(const ShaftStates&)>& end_of) {
+  std::vector<Threshold> thresholds;
   const bool stands = std::holds_alternative<double>(setting.drive.reference) &&
                       !std::holds_alternative<Sine>(setting.drive.load_torque);
   if (!stands) return thresholds;
@@ -47,7 +47,9 @@ std::vector<FoundThreshold> thresholds_of(
     const auto first = std::find_if(steps.begin(), steps.end(),
                                     [&](const Step& step) { return leads_to(step.end, wanted); });
     if (first == steps.end()) return;
-    FoundThreshold found{.end = wanted, .direction = direction, .from = first->size};
+    Threshold found{.end = wanted == MotionEnd::diverges ? "running away" : "hunting",
+                    .direction = direction,
+                    .from = first->size};
     for (auto step = steps.begin(); step != first; ++step) {
       if (step->size < first->size && step->end != MotionEnd::undecided) found.below = step->size;
     }
@@ -67,7 +69,7 @@ std::vector<FoundThreshold> thresholds_of(
     }
   }
   if (is_mirrored(setting.drive)) {
-    for (FoundThreshold& threshold : thresholds) threshold.direction = 0.0;
+    for (Threshold& threshold : thresholds) threshold.direction = 0.0;
   }
   return thresholds;
 }

@@ -13,8 +13,8 @@ namespace gearlash::drive {
 /// away each, the smallest step of which either face leads there, if a smaller one does not. Steps
 /// between it and the next smaller one are bisected with `end_of`, as long as it decides.
 /// None for a reference or a load torque that moves.
-std::vector<FoundThreshold> thresholds_of(
-    const SearchSetting& setting, const std::vector<Outcome>& outcomes, int bisections,
-    const std::function<MotionEnd(const ShaftStates&)>& end_of);
+std::vector<Threshold> thresholds_of(const SearchSetting& setting,
+                                     const std::vector<Outcome>& outcomes, int bisections,
+                                     const std::function<MotionEnd(const ShaftStates&)>& end_of);
 
 }  // namespace gearlash::drive

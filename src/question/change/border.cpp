@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/names.hpp"
+
 namespace gearlash {
 namespace {
 
@@ -48,27 +50,9 @@ bool move_alike(const Analysis& a, const Analysis& b) {
 }  // namespace
 
 const char* name_of(BorderKind kind) {
-  switch (kind) {
-    case BorderKind::limit:
-      return "limit";
-    case BorderKind::fold:
-      return "fold";
-    case BorderKind::branching:
-      return "branching";
-    case BorderKind::flip:
-      return "flip";
-    case BorderKind::neimark_sacker:
-      return "Neimark–Sacker";
-    case BorderKind::grazing:
-      return "grazing";
-    case BorderKind::endless_period:
-      return "endless period";
-    case BorderKind::rest:
-      return "rest";
-    case BorderKind::unnamed:
-      break;
-  }
-  return "unnamed";
+  constexpr Names<BorderKind::unnamed> names("limit", "fold", "branching", "flip", "Neimark–Sacker",
+                                             "grazing", "endless period", "rest", "unnamed");
+  return names[kind];
 }
 
 Border border_between(const DriveAlong& drive, const AnalysedValue& met, const AnalysedValue& unmet,

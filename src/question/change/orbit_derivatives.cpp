@@ -30,9 +30,7 @@ double least_share_of_speed(const hybrid::HybridSystem& system,
     const bool is_chained = event.time == last;  // it has no delay of its own
     last = event.time;
     if (event.kind != EventKind::transition || is_chained) continue;
-    const hybrid::AffineMode& mode = system.mode(event.mode);
-    const double speed = std::abs(mode.transitions[event.transition].guard.normal.dot(
-        hybrid::velocity(mode.flow, event.before)));
+    const double speed = hybrid::speed_at_guard(system, event);
     least = std::min(least, speed);
     most = std::max(most, speed);
   }

@@ -81,10 +81,7 @@ IntervalProof prove_target(const Drive& drive, std::string_view path, const Boun
         proof.reason = part.reason;
         return proof;
       } else if (part.values.high - part.values.low > least) {
-        const Bounds& whole = part.values;
-        const bool by_ratio = whole.low > 0.0 && whole.high > 2.0 * whole.low;
-        const double middle = by_ratio ? std::sqrt(whole.low) * std::sqrt(whole.high)
-                                       : whole.low + 0.5 * (whole.high - whole.low);
+        const double middle = middle_of(part.values);
         open.push_back({part.values.low, middle});
         open.push_back({middle, part.values.high});
       }

@@ -49,12 +49,7 @@ std::optional<ProportionalServo> shared_servo(const Drive& drive) {
                          .natural_frequency = drive.servo->natural_frequency};
   std::optional<ProportionalServo> servo = servo_of(any);
   if (!servo) return servo;
-  const NormalForm& form = *drive.servo;
-  servo->servo = {.damping = form.damping,
-                  .inertia_ratio = form.inertia_ratio,
-                  .friction_ratio = form.friction_ratio,
-                  .backlash = form.backlash,
-                  .restitution = servo->servo.restitution};
+  servo->servo = servo_with_restitution(*drive.servo, servo->servo.restitution);
   return servo;
 }
 
@@ -84,10 +79,25 @@ std::vector<double> values_at(const Grid& grid, std::size_t index) {
   return values;
 }
 
+std::vector<std::vector<double>> corners_of(std::span<const Bounds> ranges) {
+  std::vector<std::vector<double>> corners = {{}};
+  for (const Bounds& range : ranges) {
+    const std::size_t others = corners.size();
+    for (std::size_t i = 0; i < others; ++i) {
+      if (range.low != range.high) {
+        corners.push_back(corners[i]);
+        corners.back().push_back(range.high);
+      }
+      corners[i].push_back(range.low);
+    }
+  }
+  return corners;
+}
+
 std::vector<std::vector<double>> corners_of(const std::vector<Axis>& axes) {
   constexpr std::size_t most_axes = 12;
-  std::vector<std::vector<double>> corners = {{}};
   if (axes.size() > most_axes) {
+    std::vector<std::vector<double>> corners = {{}};
     for (const Axis& axis : axes) corners.front().push_back(axis.values.front());
     for (std::size_t i = 0; i < axes.size(); ++i) {
       corners.push_back(corners.front());
@@ -95,16 +105,11 @@ std::vector<std::vector<double>> corners_of(const std::vector<Axis>& axes) {
     }
     return corners;
   }
+  std::vector<Bounds> ranges;
   for (const Axis& axis : axes) {
-    if (axis.values.empty()) continue;
-    const std::size_t others = corners.size();
-    for (std::size_t i = 0; i < others; ++i) {
-      corners.push_back(corners[i]);
-      corners[i].push_back(axis.values.front());
-      corners.back().push_back(axis.values.back());
-    }
+    if (!axis.values.empty()) ranges.push_back({axis.values.front(), axis.values.back()});
   }
-  return corners;
+  return corners_of(ranges);
 }
 
 Drive drive_with(const Drive& base, const std::vector<Axis>& axes, std::span<const double> values,

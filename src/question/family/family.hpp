@@ -92,6 +92,8 @@ class FamilyMember {
 /// The values of the axes at a point.
 std::vector<double> values_at(const Grid& grid, std::size_t index);
 
+/// All combinations of the ends of ranges; a range of one value has one end.
+std::vector<std::vector<double>> corners_of(std::span<const Bounds> ranges);
 /// All combinations of the axes' first and last values; of more than twelve axes only the ends of
 /// one at a time, beside the first values of the others.
 std::vector<std::vector<double>> corners_of(const std::vector<Axis>& axes);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <complex>
 #include <cstdint>
@@ -12,7 +11,9 @@
 
 #include "general/assemble/time_scale.hpp"
 #include "model/stepped_drive.hpp"
+#include "numeric/elimination.hpp"
 #include "numeric/linear_algebra.hpp"
+#include "numeric/zero_between.hpp"
 #include "question/loop/ceiling/loop_gain.hpp"
 
 namespace gearlash::drive {
@@ -27,11 +28,6 @@ struct LoopResponse {
   Complex open;    ///< L
   Complex closed;  ///< θ_L/r
 };
-
-Eigen::RowVectorXcd row_of(const std::vector<double>& numbers) {
-  return Eigen::Map<const Eigen::RowVectorXd>(numbers.data(),
-                                              static_cast<Eigen::Index>(numbers.size()));
-}
 
 /// What the reference adds at once. Of a form `reference` is its effect together with an equal
 /// position's.
@@ -52,8 +48,8 @@ class LoopTransfer {
       inputs_(i, 0) = slope[LinearInput::torque];
       inputs_(i, 1) = by_reference(slope);
     }
-    load_ = row_of(open.load.of_state);
-    effort_ = row_of(open.effort.of_state);
+    load_ = vector_of(open.load.of_state).transpose();
+    effort_ = vector_of(open.effort.of_state).transpose();
     effort_by_reference_ = by_reference(open.effort);
   }
 
@@ -158,13 +154,7 @@ std::vector<double> crossings(const Function& function, const std::vector<double
     const auto& [low, at_low] = samples[i - 1];
     const auto& [high, at_high] = samples[i];
     if ((at_low < 0.0) == (at_high < 0.0)) continue;
-    std::uintmax_t most = 100;
-    const auto is_close = [](double a, double b) {
-      return b - a <= 4.0 * std::numeric_limits<double>::epsilon() * b;
-    };
-    const auto [below, above] =
-        boost::math::tools::toms748_solve(function, low, high, at_low, at_high, is_close, most);
-    found.push_back(0.5 * (below + above));
+    found.push_back(zero_between(low, high, at_low, at_high, function));
   }
   return found;
 }

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <utility>
 
+#include "base/names.hpp"
 #include "base/progress_part.hpp"
 #include "base/shared_progress.hpp"
 #include "base/special_numbers.hpp"
@@ -151,23 +152,9 @@ PlaceKind kind_of(Verdict verdict) {
 }
 
 std::string_view name_of(PlaceKind kind) {
-  switch (kind) {
-    case PlaceKind::rests:
-      return "comes to rest";
-    case PlaceKind::hunts_if_disturbed:
-      return "hunts if disturbed";
-    case PlaceKind::hunts:
-      return "hunts";
-    case PlaceKind::runs_away:
-      return "runs away";
-    case PlaceKind::met:
-      return "met";
-    case PlaceKind::missed:
-      return "missed";
-    case PlaceKind::not_known:
-      break;
-  }
-  return "not known";
+  constexpr Names<PlaceKind::missed> names("not known", "comes to rest", "hunts if disturbed",
+                                           "hunts", "runs away", "met", "missed");
+  return names[kind];
 }
 
 PlaceKind kind_of(const Target& target, const Answer& answer) {

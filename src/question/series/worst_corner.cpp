@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 
+#include "base/names.hpp"
 #include "base/on_threads.hpp"
 #include "base/range_check.hpp"
 #include "base/shared_progress.hpp"
@@ -116,20 +117,12 @@ class Climb {
   static constexpr std::size_t most_corners = 64;  ///< of a searched drive
 
   std::vector<Values> corners() const {
-    std::vector<Values> all = {{}};
-    if (answers_.are_one_by_one() && std::size_t{1} << coordinates_.size() > most_corners)
+    if (answers_.are_one_by_one() && std::size_t{1} << coordinates_.size() > most_corners) {
       return {};
-    for (const Coordinate& coordinate : coordinates_) {
-      const std::size_t others = all.size();
-      for (std::size_t i = 0; i < others; ++i) {
-        if (coordinate.width() > 0.0) {
-          all.push_back(all[i]);
-          all.back().push_back(coordinate.range.high);
-        }
-        all[i].push_back(coordinate.range.low);
-      }
     }
-    return all;
+    std::vector<Bounds> ranges;
+    for (const Coordinate& coordinate : coordinates_) ranges.push_back(coordinate.range);
+    return corners_of(ranges);
   }
 
   std::vector<Values> samples() const {
@@ -339,17 +332,8 @@ PlaceInRange place_of(double value, const Bounds& range) {
 }  // namespace
 
 const char* name_of(PlaceInRange place) {
-  switch (place) {
-    case PlaceInRange::fixed:
-      return "fixed";
-    case PlaceInRange::at_low:
-      return "at low";
-    case PlaceInRange::inside:
-      return "inside";
-    case PlaceInRange::at_high:
-      return "at high";
-  }
-  return "";
+  constexpr Names<PlaceInRange::at_high> names("fixed", "at low", "inside", "at high");
+  return names[place];
 }
 
 WorstCorner worst_corner(const TolerancedDrive& drive, const WorstSearch& search,

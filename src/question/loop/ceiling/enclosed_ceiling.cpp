@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "model/parameters.hpp"
 #include "model/reduced_drive.hpp"
 #include "question/axis.hpp"
+#include "question/family/family.hpp"
 #include "question/loop/ceiling/ceiling.hpp"
 
 namespace gearlash {
@@ -75,12 +75,6 @@ bool have_one_form(const EnclosedDrive& enclosed, const EnclosedDrive& widened) 
 }
 
 using Sides = std::vector<Bounds>;
-
-/// By ratio over more than an octave.
-double middle_of(const Bounds& side) {
-  return side.low > 0.0 && side.high > 2.0 * side.low ? std::sqrt(side.low) * std::sqrt(side.high)
-                                                      : side.low + 0.5 * (side.high - side.low);
-}
 
 std::vector<double> middle_of(const Sides& sides) {
   std::vector<double> middle;
@@ -275,6 +269,11 @@ class Proof {
 
 }  // namespace
 
+double middle_of(const Bounds& side) {
+  return side.low > 0.0 && side.high > 2.0 * side.low ? std::sqrt(side.low) * std::sqrt(side.high)
+                                                      : side.low + 0.5 * (side.high - side.low);
+}
+
 std::variant<EnclosedDrive, std::string> enclosed_drive(const Drive& drive,
                                                         std::span<const BoxSide> box) {
   if (drive.controller.firmware) return std::string("no proof over registers is known");
@@ -285,19 +284,14 @@ std::variant<EnclosedDrive, std::string> enclosed_drive(const Drive& drive,
     if (side.values.low == side.values.high) continue;
     if (std::string reason = obstacle(drive, side); !reason.empty()) return reason;
   }
-  std::vector<Drive> corners = {drive};
-  for (const BoxSide& side : box) {
-    const std::size_t count = corners.size();
-    if (side.values.low != side.values.high) {
-      corners.reserve(2 * count);
-      std::copy_n(corners.begin(), count, std::back_inserter(corners));
-    }
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      set_on({.path = side.path}, corners[i], i < count ? side.values.low : side.values.high);
-    }
-  }
+  std::vector<Bounds> sides;
+  for (const BoxSide& side : box) sides.push_back(side.values);
   std::optional<EnclosedDrive> all;
-  for (const Drive& at_corner : corners) {
+  for (const std::vector<double>& corner : corners_of(sides)) {
+    Drive at_corner = drive;
+    for (std::size_t i = 0; i < box.size(); ++i) {
+      set_on({.path = box[i].path}, at_corner, corner[i]);
+    }
     if (!faults(at_corner).empty()) return std::string("some drives of the box are unsound");
     const EnclosedDrive one(at_corner);
     if (!all) all = one;

@@ -36,6 +36,9 @@ std::variant<EnclosedDrive, std::string> enclosed_drive(const Drive& drive,
                                                         std::span<const BoxSide> box);
 inline constexpr std::size_t most_sides = 10;
 
+/// Where a side is halved: by ratio if it is more than an octave.
+double middle_of(const Bounds& side);
+
 /// The effort of the proof.
 struct CeilingSearch {
   Quantity quantity = Quantity::ceiling;  ///< or motor_ceiling, effort_ceiling

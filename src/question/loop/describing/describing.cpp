@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/names.hpp"
 #include "model/rational_function.hpp"
 
 namespace gearlash::drive {
@@ -215,17 +216,17 @@ double modulus(const TransferFunction& transfer, double frequency) {
   return std::abs(frequency_response(transfer, frequency).value);
 }
 
-DescribedMotion motion_of(const DescribingAnalysis& analysis, const PredictedCycle& cycle,
-                          double gap) {
+DescribedMotion motion_of(const DescribingAnalysis& analysis, const PredictedCycle& cycle) {
   DescribedMotion motion{.balance = cycle};
   motion.motor_amplitude = cycle.amplitude / modulus(analysis.input_per_motor, cycle.frequency);
-  motion.amplitude =
-      analysis.load_per_motor
-          ? motion.motor_amplitude * modulus(*analysis.load_per_motor, cycle.frequency)
-          : load_amplitude(analysis.part == DescribedPart::gap_load_held
-                               ? LoadInGap::held_by_friction
-                               : LoadInGap::coasting,
-                           cycle, gap);
+  if (analysis.load_per_motor) {
+    motion.amplitude = motion.motor_amplitude * modulus(*analysis.load_per_motor, cycle.frequency);
+  } else if (const auto* held = std::get_if<FrictionControlledBacklash>(&analysis.nonlinearity)) {
+    motion.amplitude = load_amplitude(*held, cycle);
+  } else {
+    motion.amplitude =
+        load_amplitude(std::get<InertiaControlledBacklash>(analysis.nonlinearity), cycle);
+  }
   return motion;
 }
 
@@ -238,7 +239,7 @@ DescribingAnalysis completed(DescribingAnalysis analysis, const ReducedDrive& dr
       harmonic_balance(analysis.nonlinearity, analysis.loop, frequency_range(analysis.loop));
   analysis.unresolved = std::move(balance.unresolved);
   for (const PredictedCycle& cycle : balance.cycles) {
-    analysis.cycles.push_back(motion_of(analysis, cycle, drive.backlash));
+    analysis.cycles.push_back(motion_of(analysis, cycle));
   }
   return analysis;
 }
@@ -389,35 +390,29 @@ bool is_in_loop(const DescribingAnalysis& analysis) {
 }
 
 const char* name_of(DescribedPart part) {
-  static constexpr const char* names[] = {"gap, load held by friction",
-                                          "gap, load coasting",
-                                          "gap with elastic faces",
-                                          "torque limit",
-                                          "Coulomb friction",
-                                          "dead band",
-                                          "relay"};
-  return names[static_cast<std::size_t>(part)];
+  constexpr Names<DescribedPart::relay> names("gap, load held by friction", "gap, load coasting",
+                                              "gap with elastic faces", "torque limit",
+                                              "Coulomb friction", "dead band", "relay");
+  return names[part];
 }
 
 const char* name_of(Assumption assumption) {
-  static constexpr const char* descriptions[] = {
+  constexpr Names<Assumption::falling_friction_left_out> descriptions(
       "the motor drives all inertia and viscous friction at all times",
       "the sensors are on the motor, so the gap is outside the loop of positions and causes "
       "no cycle there; the description takes the first harmonic of the load's inertia and "
       "viscous friction, which act back on the motor",
-      "there is no gap: both shafts turn as one",
-      "the torque is not limited",
+      "there is no gap: both shafts turn as one", "the torque is not limited",
       "all friction is viscous",
       "breakaway torque has no effect, because a sine is never at rest; hunting from "
       "stiction is not described",
       "the controller is continuous, with a delay of half a sampling period plus its "
       "computational delay",
-      "this delay inside the loop is a rational function of order 4",
-      "encoders have no steps",
+      "this delay inside the loop is a rational function of order 4", "encoders have no steps",
       "reference and load torque are 0",
       "the controller receives the error itself, without dead band or compensation",
-      "dry friction does not fall with speed"};
-  return descriptions[static_cast<std::size_t>(assumption)];
+      "dry friction does not fall with speed");
+  return descriptions[assumption];
 }
 
 std::vector<ExactMotion> exact_motions(const Answer& answer) {

@@ -287,24 +287,6 @@ HarmonicBalance search(const Loop& loop, std::vector<Bounds> parts) {
   return found;
 }
 
-// ---- The servo
-
-/// Amplitude of the play's output, A − h; for A < 2h as h tan²(φ/2), which keeps its digits.
-double held_load_amplitude(const PredictedCycle& cycle, double half_gap) {
-  if (cycle.amplitude >= 2.0 * half_gap) return cycle.amplitude - half_gap;
-  const double angle = std::asin(std::sqrt(std::min(1.0, -pi * cycle.gain.imag())));
-  const double tangent = std::tan(0.5 * angle);
-  return half_gap * tangent * tangent;
-}
-
-/// The load is farthest at the input's turning point if they have met by then, otherwise where they
-/// meet, at A sin c + h.
-double coasting_load_amplitude(const PredictedCycle& cycle, double half_gap) {
-  const double cosine = 1.0 - std::sqrt(-pi * cycle.gain.imag());
-  const double sine = cosine >= 0.0 ? 1.0 : std::sqrt((1.0 - cosine) * (1.0 + cosine));
-  return cycle.amplitude * sine + half_gap;
-}
-
 }  // namespace
 
 HarmonicBalance harmonic_balance(const Nonlinearity& nonlinearity, const TransferFunction& loop,
@@ -340,9 +322,21 @@ Bounds natural_frequency_range(const TransferFunction& loop) {
   return {scale.low / beyond, loop.delay > 0.0 ? std::min(high, 100.0 * turn / loop.delay) : high};
 }
 
-double load_amplitude(LoadInGap load, const PredictedCycle& cycle, double gap) {
-  return load == LoadInGap::coasting ? coasting_load_amplitude(cycle, 0.5 * gap)
-                                     : held_load_amplitude(cycle, 0.5 * gap);
+/// Amplitude of the play's output, A − h; for A < 2h as h tan²(φ/2), which keeps its digits.
+double load_amplitude(const FrictionControlledBacklash& backlash, const PredictedCycle& cycle) {
+  const double half_gap = 0.5 * backlash.gap;
+  if (cycle.amplitude >= 2.0 * half_gap) return cycle.amplitude - half_gap;
+  const double angle = std::asin(std::sqrt(std::min(1.0, -pi * cycle.gain.imag())));
+  const double tangent = std::tan(0.5 * angle);
+  return half_gap * tangent * tangent;
+}
+
+/// The load is farthest at the input's turning point if they have met by then, otherwise where they
+/// meet, at A sin c + h.
+double load_amplitude(const InertiaControlledBacklash& backlash, const PredictedCycle& cycle) {
+  const double cosine = 1.0 - std::sqrt(-pi * cycle.gain.imag());
+  const double sine = cosine >= 0.0 ? 1.0 : std::sqrt((1.0 - cosine) * (1.0 + cosine));
+  return cycle.amplitude * sine + 0.5 * backlash.gap;
 }
 
 }  // namespace gearlash

@@ -59,16 +59,11 @@ HarmonicBalance harmonic_balance(const Nonlinearity& nonlinearity, const Transfe
 /// If G has neither such a root nor a delay, 1e±6 around the frequency at which |G| = 1.
 Bounds natural_frequency_range(const TransferFunction& loop);
 
-/// The assumed motion of the load while the gap is crossed.
-enum class LoadInGap {
-  held_by_friction,  ///< it stays (FrictionControlledBacklash)
-  coasting           ///< it keeps its speed (InertiaControlledBacklash)
-};
-
-/// Half the peak-to-peak of the load on a cycle predicted for it, whose amplitude is the motor's.
-/// It is A − h for a load held by friction. For a coasting load it is A + h, or A sin c + h if the
-/// faces meet past the motor's turning point. It stays accurate as A → h. Precondition: a cycle of
-/// harmonic_balance() with the kind of gap that belongs to `load`.
-double load_amplitude(LoadInGap load, const PredictedCycle& cycle, double gap);
+/// Half the peak-to-peak of the load on a cycle predicted for its gap, whose amplitude is the
+/// motor's. It is A − h for a load held by friction. For a coasting load it is A + h, or A sin c +
+/// h if the faces meet past the motor's turning point. It stays accurate as A → h. Precondition: a
+/// cycle of harmonic_balance() with this nonlinearity.
+double load_amplitude(const FrictionControlledBacklash& backlash, const PredictedCycle& cycle);
+double load_amplitude(const InertiaControlledBacklash& backlash, const PredictedCycle& cycle);
 
 }  // namespace gearlash

@@ -10,7 +10,8 @@
 #include <vector>
 
 #include "base/special_numbers.hpp"
-#include "model/sampled_controller.hpp"
+#include "model/controller.hpp"
+#include "numeric/elimination.hpp"
 #include "numeric/linear_algebra.hpp"
 #include "numeric/polytope.hpp"
 
@@ -19,8 +20,6 @@ namespace {
 
 using drive::LinearController;
 using drive::ReducedDrive;
-using drive::forms::matrix_of;
-using drive::forms::vector_of;
 using Eigen::Vector2d;
 using Eigen::Vector4d;
 using Eigen::VectorXd;

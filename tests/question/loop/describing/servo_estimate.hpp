@@ -11,6 +11,12 @@
 
 namespace gearlash {
 
+/// The assumed motion of the load while the gap is crossed.
+enum class LoadInGap {
+  held_by_friction,  ///< it stays (FrictionControlledBacklash)
+  coasting           ///< it keeps its speed (InertiaControlledBacklash)
+};
+
 /// Times in units of 1/ω_n, angles in rad at the load shaft.
 struct DescribedCycle {
   LoadInGap load = LoadInGap::held_by_friction;
@@ -48,9 +54,9 @@ inline std::vector<DescribedCycle> describing_function_estimate(const Normalized
   // |N| < 4/π has ω below 1.13. For small ζ the smaller cycle is at 11 ζ³, and for great ζ the only
   // one at 0.64/ζ.
   const Bounds frequencies{std::min(damping * damping * damping, 0.1 / damping), 2.0};
-  const auto append = [&](LoadInGap load, const Nonlinearity& play) {
+  const auto append = [&](LoadInGap load, const auto& play) {
     for (const PredictedCycle& cycle : harmonic_balance(play, loop, frequencies).cycles) {
-      estimate.push_back({load, load_amplitude(load, cycle, gap), cycle.amplitude, cycle.period,
+      estimate.push_back({load, load_amplitude(play, cycle), cycle.amplitude, cycle.period,
                           cycle.stable, cycle.residual});
     }
   };
