@@ -35,6 +35,7 @@ struct Searching {
 
 using drive::AttractorOptions;
 using drive::AttractorSearch;
+using drive::IsEnough;
 using drive::ReducedDrive;
 using drive::SearchSetting;
 using drive::StartTolerances;
@@ -52,7 +53,7 @@ using drive::StartTolerances;
   "16AttractorOptionsERNS_8ProgressE"
 #define GEARLASH_FOLLOW                                                    \
   "_ZN8gearlash5drive17follow_attractorsERKNS0_14ReducedDriveOfIdEERKNS0_" \
-  "15AttractorSearchERNS_8ProgressE"
+  "15AttractorSearchERNS_8ProgressERKSt8functionIFbS7_EE"
 #define GEARLASH_CYCLES \
   "_ZN8gearlash5drive13follow_cyclesERKNS0_14ReducedDriveOfIdEERKNS0_15AttractorSearchE"
 
@@ -84,14 +85,17 @@ AttractorSearch counted_find(const ReducedDrive& drive, const AttractorOptions& 
 }
 
 std::optional<AttractorSearch> real_follow(const ReducedDrive& drive, const AttractorSearch& near,
-                                           Progress& progress) GEARLASH_REAL(GEARLASH_FOLLOW);
+                                           Progress& progress, const IsEnough& suffices)
+    GEARLASH_REAL(GEARLASH_FOLLOW);
 std::optional<AttractorSearch> counted_follow(const ReducedDrive& drive,
-                                              const AttractorSearch& near, Progress& progress)
+                                              const AttractorSearch& near, Progress& progress,
+                                              const IsEnough& suffices)
     GEARLASH_COUNTED(GEARLASH_FOLLOW);
 std::optional<AttractorSearch> counted_follow(const ReducedDrive& drive,
-                                              const AttractorSearch& near, Progress& progress) {
+                                              const AttractorSearch& near, Progress& progress,
+                                              const IsEnough& suffices) {
   const Searching searching;
-  std::optional<AttractorSearch> found = real_follow(drive, near, progress);
+  std::optional<AttractorSearch> found = real_follow(drive, near, progress, suffices);
   if (found) ++drives;  // else it is searched
   return found;
 }
