@@ -68,11 +68,12 @@ struct MotionPicture {
 inline constexpr std::size_t most_events_drawn = 20'000;
 inline constexpr double most_periods_drawn = 1'600.0;
 
-/// The first motion over time: the positions of load and motor with the reference and the gap
-/// around the load, the gap between its faces, and the motor's torque with its limit. If the motion
-/// ends in an oscillation, or at an error, that is small or fast beside the whole, a second column
-/// shows the end alone, relative to the reference, with the encoder's steps where they are visible.
-/// Throws InvalidInput for more than most_events_drawn events or most_periods_drawn periods.
+/// The first motion over time: the positions of load and motor with the reference, the gap around
+/// the load and what an encoder reads, the gap between its faces, and the motor's torque with its
+/// limit. If the motion ends in an oscillation, or at an error, that is small or fast beside the
+/// whole, a second column shows the end alone, relative to the reference, with the encoder's steps
+/// where they are visible. Throws InvalidInput for more than most_events_drawn events or
+/// most_periods_drawn periods.
 Plot time_plot(const MotionPicture& picture);
 
 /// Speed over position relative to the reference: load (solid), motor (dashed), the gap between

@@ -15,6 +15,7 @@ const Layer gap_style{
     .kind = LayerKind::area, .name = "gap, ± half the backlash", .colour = "#dcdcdc"};
 const Layer apart_style{.kind = LayerKind::area, .name = "faces apart", .colour = "#fdf3dd"};
 const Layer step_style{.name = "encoder steps", .colour = "#3d7ea6", .width = 1.0, .dashes = "2,3"};
+const Layer reading_style{.name = "encoder reading", .colour = "#3d7ea6", .width = 1.0};
 const Layer reference_style{
     .name = "reference", .colour = "#555555", .width = 1.2, .dashes = "10,5,2,5"};
 const Layer load_style{.name = "load", .colour = load_colour, .width = 2.0};
@@ -47,6 +48,7 @@ struct Response {
   double gap;
   double torque_limit;
   double encoder_step;
+  double encoder_share_of_load;  ///< 1: it measures the load, 0: the motor
   Extent positions;
   ShownEnd end;
 };
@@ -131,14 +133,18 @@ class TimeColumn {
     MapCurve around = over_time([&](const DrawnPoint& point) { return load(point) + half; });
     MapCurve below = over_time([&](const DrawnPoint& point) { return load(point) - half; });
     around.insert(around.end(), below.rbegin(), below.rend());
-    const Bounds range = is_relative_ ? widened(response_.end.shown_errors(), 0.25)
-                                      : widened(response_.positions, 0.05);
+    MapCurve reading = encoder_reading();
+    Extent range = heights_of(reading);
+    const Bounds positions = is_relative_ ? widened(response_.end.shown_errors(), 0.25)
+                                          : widened(response_.positions, 0.05);
+    for (const double end : {positions.low, positions.high}) range.include(end);
     Panel drawn = panel(is_relative_ ? "from the reference" : "position",
                         response_.picture.angle.name, range, 270.0);
     if (half > 0.0) drawn.layers.push_back(layer_of(gap_style, std::move(around)));
     MapCurve edges;
     for (const double edge : encoder_edges(range)) append(at(edge), edges);
     if (!edges.empty()) drawn.layers.push_back(layer_of(step_style, std::move(edges)));
+    if (!reading.empty()) drawn.layers.push_back(layer_of(reading_style, std::move(reading)));
     drawn.layers.push_back(layer_of(reference_style, over_time(reference, true)));
     drawn.layers.push_back(layer_of(load_style, over_time(load)));
     drawn.layers.push_back(layer_of(motor_style, over_time(motor)));
@@ -165,6 +171,48 @@ class TimeColumn {
       edges.push_back((i + 0.5) * step - *reference);
     }
     return edges;
+  }
+
+  /// The multiple of the step that is nearest to the measured position, with a corner wherever it
+  /// changes: positions are straight between two points. Empty without an encoder.
+  MapCurve encoder_reading() const {
+    if (!(response_.encoder_step > 0.0)) return {};
+    MapCurve points;
+    const DrawnPoint* before = nullptr;
+    for (const DrawnPiece& piece : response_.pieces) {
+      for (const DrawnPoint& point : piece.points) {
+        if (point.time < from_) continue;
+        if (before != nullptr) add_corners(*before, point, points);
+        points.push_back(
+            {point.time, std::round(steps(point)) * response_.encoder_step - origin(point)});
+        before = &point;
+      }
+    }
+    return points;
+  }
+
+  /// The measured position, in steps of the encoder.
+  double steps(const DrawnPoint& point) const {
+    return std::lerp(point.motor_position, point.load_position, response_.encoder_share_of_load) /
+           response_.encoder_step;
+  }
+
+  /// Of more corners than can be seen the line from point to point shows as much.
+  void add_corners(const DrawnPoint& from, const DrawnPoint& to, MapCurve& points) const {
+    constexpr double most_corners = 30.0;
+    const double begin = steps(from);
+    const double end = steps(to);
+    const double last = std::round(end);
+    if (std::abs(last - std::round(begin)) > most_corners) return;
+    const double up = end > begin ? 1.0 : -1.0;
+    for (double count = std::round(begin); count != last; count += up) {
+      const double share = std::clamp((count + 0.5 * up - begin) / (end - begin), 0.0, 1.0);
+      const double time = std::lerp(from.time, to.time, share);
+      const double reference = std::lerp(origin(from), origin(to), share);
+      for (const double reading : {count, count + up}) {
+        points.push_back({time, reading * response_.encoder_step - reference});
+      }
+    }
   }
 
   Panel gap_panel() const {
@@ -252,6 +300,7 @@ Response response_of(const MotionPicture& picture) {
                     .gap = picture.angle.from_radians(reduced.backlash),
                     .torque_limit = reduced.torque_limit,
                     .encoder_step = picture.angle.from_radians(reduced.sensing.resolution),
+                    .encoder_share_of_load = reduced.sensing.load_share_of_position,
                     .positions = {},
                     .end = {}};
   for (const DrawnPiece& piece : response.pieces) {

@@ -164,6 +164,32 @@ TEST(TimeResponse, TheEndHasAColumnOfItsOwnWithEncoderSteps) {
               AllOf(HasSubstr("s, enlarged"), Not(HasSubstr("encoder"))));
 }
 
+/// Steps are the reading's only changes, and lie half a step from what is measured.
+TEST(TimeResponse, TheEncoderReadsTheNearestStepOfTheLoad) {
+  const Drive drive = coarse_drive();
+  const double step = 2.0 * std::numbers::pi / *drive.sensor.encoder.counts_per_turn;
+  const Plot plot = time_plot(picture_of(drive, 60.0));
+  const auto curve_of = [&](const char* name) {
+    MapCurve points;
+    for (const Layer& layer : plot.columns[0][0].layers) {
+      if (layer.name == name) points = layer.points;
+    }
+    return points;
+  };
+  const MapCurve reading = curve_of("encoder reading");
+  const MapCurve load = curve_of("load");
+  ASSERT_GT(reading.size(), load.size());
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < reading.size(); ++i) {
+    EXPECT_NEAR(std::remainder(reading[i].y, step), 0.0, 1e-9);
+    const bool is_step = i > 0 && reading[i].y != reading[i - 1].y;
+    EXPECT_EQ(reading[i].x, is_step ? reading[i - 1].x : reading[i].x);
+    while (at + 1 < load.size() && load[at + 1].x <= reading[i].x) ++at;
+    if (load[at].x != reading[i].x) continue;
+    EXPECT_LE(std::abs(reading[i].y - load[at].y), 0.5 * step + 1e-9);
+  }
+}
+
 TEST(TimeResponse, EachThingHasOneNameInTheLegend) {
   std::string text = draw(time_plot(picture_of(coarse_drive(), 60.0)), PictureFormat::svg);
   // A layer's title is what a browser shows beside the pointer.

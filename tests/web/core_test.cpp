@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "gearlash/analyse.hpp"
 #include "gearlash/drive.hpp"
@@ -166,6 +168,21 @@ TEST_F(WebCore, EventsOfEitherEngineHaveTheirWords) {
         EXPECT_TRUE(what == "faces part" || what.starts_with("impact ")) << what;
       }
     }
+  }
+}
+
+TEST_F(WebCore, AnEncoderReadsWholeSteps) {
+  const Json reply = ask(
+      {{"ask", "answer"},
+       {"drive", drive(joint, {{"sensor.resolution", "1 arcmin"}, {"sampling.period", "1 ms"}})}});
+  const double step = std::numbers::pi / 180.0 / 60.0 / reply["unit_in_si"].get<double>();
+  std::vector<double> points;
+  for (const Json& layer : reply["motions"][0]["plot"]["columns"][0][0]["layers"]) {
+    if (layer["name"] == "encoder reading") points = column(layer["points"]);
+  }
+  ASSERT_GT(points.size(), 100U);
+  for (std::size_t i = 1; i < points.size(); i += 2) {
+    EXPECT_NEAR(points[i] / step, std::round(points[i] / step), 1e-9);
   }
 }
 

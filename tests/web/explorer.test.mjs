@@ -425,6 +425,46 @@ onPage('a link that sets what the drive does not take says so, and answers witho
   await assertSameReport(page, ['limit-cycle', 'examples/normalized.toml']);
 });
 
+onPage('curves are read at the pointer, and a time is narrowed by dragging until it is widened', 'example=normalized', async (page) => {
+  await settled(page);
+  const picture = page.locator('#card-time svg[role=img]');
+  await picture.scrollIntoViewIfNeeded();
+  const { x, y, width } = await picture.boundingBox();
+  const readings = () => page.textContent('#card-time .readings');
+  const pointAt = (share) => page.mouse.move(x + share * width, y + 60);
+  const timeAt = async (share) => {
+    await pointAt(share);
+    return Number(/time \([^)]*\): ([\d.]+)/.exec(await readings())[1]);
+  };
+  const end = await timeAt(0.99);
+  assert.equal(await timeAt(0.01), 0);
+  const middle = await timeAt(0.5);
+  const number = (name, text) => Number(new RegExp(`${name} (−?[\\d.]+)`).exec(text)[1].replace('−', '-'));
+  const text = await readings();
+  const gap = number('motor', text) - number('load', text);
+  assert.ok(Math.abs(gap - number('gap \\([^)]*\\):', text)) <= 1e-3 * Math.abs(number('load', text)), text);
+  assert.match(text, /torque \([^)]*\): motor torque /);
+  // By keys: the time of the gears.
+  await page.focus('#gear-time');
+  await page.keyboard.press('End');
+  assert.match(await readings(), new RegExp(`: ${end};`));
+  const whole = await picture.textContent();
+  for (const widen of [() => page.mouse.dblclick(x + 0.5 * width, y + 60), () => page.keyboard.press('Escape')]) {
+    await pointAt(0.5);
+    await page.mouse.down();
+    await pointAt(0.8);
+    assert.equal(await page.locator('#card-time .band').count(), 1);
+    await page.mouse.up();
+    assert.equal(await page.locator('#card-time .band').count(), 0);
+    assert.equal(await timeAt(0.01), middle);
+    assert.ok((await timeAt(0.99)) < end);
+    assert.notEqual(await picture.textContent(), whole);
+    await widen();
+    assert.equal(await timeAt(0.99), end);
+    assert.equal(await picture.textContent(), whole);
+  }
+});
+
 onPage('a proof without a motion leaves no motion of the drive before', 'example=normalized', async (page) => {
   await settled(page);
   assert.equal(await page.locator('#card-time svg[role=img]').count(), 1);

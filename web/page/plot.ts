@@ -25,7 +25,7 @@ export interface Place {
   y?: number;
 }
 
-const frame = { left: 74, right: 14, top: 12, between: 10, title: 22, bottom: 48 };
+export const frame = { left: 74, right: 14, top: 12, between: 10, title: 22, bottom: 48 };
 const letter = 7.2;
 
 type Scale = (value: number) => number;
@@ -48,7 +48,7 @@ interface Placed {
 }
 
 /** All panels below each other; a column's last one has the numbers of its x axis. */
-function placed(plot: Plot, width: number): Placed[] {
+export function placed(plot: Plot, width: number): Placed[] {
   const usual = width * (width < 460 ? 0.8 : 0.66) - frame.top - frame.bottom;
   const least = 90; // px: room for the name of its axis
   let top = frame.top;
