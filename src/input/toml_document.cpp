@@ -156,6 +156,16 @@ std::vector<std::size_t> character_places(std::string_view line) {
   return places;
 }
 
+/// toml++ 3.3 reports a want of memory within a number as an error of the text, which is parsed
+/// once more for that.
+toml::table parsed(std::string_view text) {
+  try {
+    return toml::parse(text);
+  } catch (const toml::parse_error&) {
+    return toml::parse(text);
+  }
+}
+
 }  // namespace
 
 TomlDocument::TomlDocument(std::string_view text, std::string_view source_name, std::size_t largest)
@@ -171,7 +181,7 @@ TomlDocument::TomlDocument(std::string_view text, std::string_view source_name, 
   for (const std::string_view line : lines_) character_places_.push_back(character_places(line));
   require_parsable(text, lines_, source_name_);
   try {
-    root_ = toml::parse(text);
+    root_ = parsed(text);
   } catch (const toml::parse_error& error) {
     const Place place = error.source().begin;
     refuse_at(where(place), "line", shown(line(place.line)),
