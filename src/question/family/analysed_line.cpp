@@ -8,11 +8,6 @@
 namespace gearlash {
 namespace {
 
-/// Where motion is too slow for a start to be decided, it may be so for others.
-bool is_slow(const drive::AttractorSearch& search) {
-  return search.count(drive::MotionEnd::undecided) > 0;
-}
-
 /// Where motion is too slow for the first starts to be decided, it is so for the others.
 bool is_hopeless(const drive::AttractorSearch& search) {
   constexpr std::size_t enough = 5;
@@ -41,7 +36,6 @@ AnalysedLine::AnalysedLine(const DriveAlong& drive, const Wanted& wanted, std::s
             const std::optional<SoundDrive> there = SoundDrive::of(drive(value));
             if (!there) return nullptr;
             scope.is_enough = is_hopeless;
-            scope.may_hurry = is_slow;
             return std::make_shared<const Analysis>(analyse_in_full(*there, wanted, heard, scope));
           },
           usual, progress) {}

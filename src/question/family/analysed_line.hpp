@@ -28,8 +28,7 @@ class AnalysedLine {
 
   /// By `analyse`. `usual`: the number of analyses that are expected, for the progress alone.
   AnalysedLine(DriveAlong drive, Analyse analyse, std::size_t usual, Progress& progress);
-  /// By analyse_in_full(). Where a start is undecided the next are watched for less long, and where
-  /// the first five are, the others are left out.
+  /// By analyse_in_full(). Where the first five starts are undecided the others are left out.
   AnalysedLine(const DriveAlong& drive, const Wanted& wanted, std::size_t usual,
                Progress& progress);
 

@@ -37,22 +37,19 @@ std::vector<std::size_t> chain_of(std::span<const double> values, std::size_t co
   return order;
 }
 
-/// Once a start is undecided others are not watched for long. A slow one may lead to rest, which no
-/// more matters where another hunts: a few of them are enough then.
-SearchScope hurried(bool rest_matters) {
+/// A slow start may lead to rest, which does not matter where another hunts, unless the target asks
+/// for rest. It is not watched for long then, and a few that stay undecided are enough.
+SearchScope hurried() {
   constexpr std::size_t few = 3;
-  const auto hunts = [rest_matters](const drive::AttractorSearch& search) {
-    return !rest_matters && (search.count(drive::MotionEnd::cycle) > 0 ||
-                             search.count(drive::MotionEnd::irregular) > 0);
+  const auto hunts = [](const drive::AttractorSearch& search) {
+    return search.count(drive::MotionEnd::cycle) > 0 ||
+           search.count(drive::MotionEnd::irregular) > 0;
   };
   return {.is_enough =
               [hunts](const drive::AttractorSearch& search) {
                 return hunts(search) && search.count(drive::MotionEnd::undecided) >= few;
               },
-          .may_hurry =
-              [hunts](const drive::AttractorSearch& search) {
-                return hunts(search) || search.count(drive::MotionEnd::undecided) > 0;
-              }};
+          .may_hurry = hunts};
 }
 
 }  // namespace
@@ -139,7 +136,7 @@ bool SampleAnswers::fill(const FamilyRows& rows, std::span<SampleResult> results
                     .wanted = wanted_for(target_, family_.base()),
                     .one_by_one = true};
   asked.wanted.borders = true;  // of each sample the amplitude counts
-  if (hurries_) asked.scope = hurried(asks_for_rest(target_));
+  if (hurries_ && !asks_for_rest(target_)) asked.scope = hurried();
   const FamilyRows in_runs{.count = rows.count, .fill = fill_run, .line = block_of_samples};
   return !evaluate(family_, in_runs, asked, progress, workers_).stopped;
 }
