@@ -121,8 +121,9 @@ def sentences_of(page):
 
 
 def is_word(text):
-    """Whether it is none of the symbols and units that formulas leave in the text."""
-    return len(text) > 3 and all(
+    """Whether it is none of the symbols and units that formulas leave in the text, nor a name of code
+    (TuneTask)."""
+    return len(text) > 3 and not re.search("[a-z][A-Z]", text) and all(
         unicodedata.name(letter, "").startswith("LATIN") or letter == "'" for letter in text)
 
 

@@ -156,7 +156,7 @@ def type_in(schema):
         name = place.rsplit("/", 1)[-1]
         if not name:
             return f"[{page.removesuffix('.md')}]({page})" if page else "this object again"
-        return f"[{name.replace('_', ' ')}]({page}#{anchor(name)})"
+        return f"[{code(name)}]({page}#{anchor(name)})"
     if "const" in schema:
         return code(json.dumps(schema["const"]))
     if "enum" in schema:
@@ -209,7 +209,7 @@ def schema_page(path):
     else:
         parts[0] = f"# {schema['title'][0].upper()}{schema['title'][1:]}\n"
     for name, part in schema.get("$defs", {}).items():
-        parts.append(f"## {name.replace('_', ' ')}\n")
+        parts.append(f"## {code(name)}\n")
         meaning = part.get("description") or part_of(part, path).get("description")
         if meaning:
             parts.append(meaning + "\n")
