@@ -437,6 +437,14 @@ Analysis analyse_in_full(const SoundDrive& sound, const Wanted& wanted, Progress
     analysis.search = drive::AttractorSearch{};
     analysis.answer = answer_by_energy(analysis.reduced);
   } else {
+    const drive::AttractorOptions options{
+        .starts = scope.starts,
+        .is_enough = scope.is_enough,
+        .may_hurry = scope.may_hurry,
+        .most_edges = wanted.borders ? drive::AttractorOptions{}.most_edges : 0,
+        .band = wanted.rest_band,
+        .tolerances = scope.tolerances,
+        .budget = {.bytes_kept = wanted.motion_bytes}};
     if (scope.near != nullptr && scope.near->search) {
       drive::IsEnough suffices;
       if (scope.suffices) {
@@ -444,20 +452,12 @@ Analysis analyse_in_full(const SoundDrive& sound, const Wanted& wanted, Progress
           return scope.suffices(answer_of(found, analysis.reduced));
         };
       }
-      analysis.search =
-          drive::follow_attractors(analysis.reduced, *scope.near->search, progress, suffices);
+      analysis.search = drive::follow_attractors(analysis.reduced, *scope.near->search, progress,
+                                                 suffices, options);
       analysis.is_followed = analysis.search.has_value();
     }
     if (!analysis.search) {
-      analysis.search = drive::find_attractors(
-          analysis.reduced,
-          {.starts = scope.starts,
-           .is_enough = scope.is_enough,
-           .may_hurry = scope.may_hurry,
-           .most_edges = wanted.borders ? drive::AttractorOptions{}.most_edges : 0,
-           .band = wanted.rest_band,
-           .budget = {.bytes_kept = wanted.motion_bytes}},
-          progress);
+      analysis.search = drive::find_attractors(analysis.reduced, options, progress);
     }
     analysis.answer = answer_of(*analysis.search, analysis.reduced);
   }

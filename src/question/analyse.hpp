@@ -33,6 +33,7 @@ struct SearchScope {
   std::function<bool(const Answer& followed)> suffices{};
   drive::IsEnough is_enough{};               ///< as of AttractorOptions
   drive::IsEnough may_hurry{};               ///< likewise
+  drive::SearchTolerances tolerances{};      ///< likewise
   std::vector<drive::ShaftStates> starts{};  ///< likewise
 };
 

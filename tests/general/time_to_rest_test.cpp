@@ -111,7 +111,8 @@ TEST(FastestDecay, IsTheirOwnWhereSwingsDoNotScatter) {
 /// 50 swings that scatter by a third may still decay; 5000 do not.
 TEST(FastestDecay, IsExcludedByMoreSwings) {
   const auto is_excluded = [](int swings, double decay) {
-    return excludes_decay(fastest_decay(swings_of(swings, decay, 0.5)), 0.5 * swings);
+    return excludes_decay(fastest_decay(swings_of(swings, decay, 0.5)), 0.5 * swings,
+                          IrregularTolerances{});
   };
   EXPECT_FALSE(is_excluded(50, 0.0));
   EXPECT_TRUE(is_excluded(5000, 0.0));

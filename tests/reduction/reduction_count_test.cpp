@@ -53,7 +53,7 @@ using drive::StartTolerances;
   "16AttractorOptionsERNS_8ProgressE"
 #define GEARLASH_FOLLOW                                                    \
   "_ZN8gearlash5drive17follow_attractorsERKNS0_14ReducedDriveOfIdEERKNS0_" \
-  "15AttractorSearchERNS_8ProgressERKSt8functionIFbS7_EE"
+  "15AttractorSearchERNS_8ProgressERKSt8functionIFbS7_EERKNS0_16AttractorOptionsE"
 #define GEARLASH_CYCLES \
   "_ZN8gearlash5drive13follow_cyclesERKNS0_14ReducedDriveOfIdEERKNS0_15AttractorSearchE"
 
@@ -85,17 +85,20 @@ AttractorSearch counted_find(const ReducedDrive& drive, const AttractorOptions& 
 }
 
 std::optional<AttractorSearch> real_follow(const ReducedDrive& drive, const AttractorSearch& near,
-                                           Progress& progress, const IsEnough& suffices)
+                                           Progress& progress, const IsEnough& suffices,
+                                           const AttractorOptions& options)
     GEARLASH_REAL(GEARLASH_FOLLOW);
 std::optional<AttractorSearch> counted_follow(const ReducedDrive& drive,
                                               const AttractorSearch& near, Progress& progress,
-                                              const IsEnough& suffices)
+                                              const IsEnough& suffices,
+                                              const AttractorOptions& options)
     GEARLASH_COUNTED(GEARLASH_FOLLOW);
 std::optional<AttractorSearch> counted_follow(const ReducedDrive& drive,
                                               const AttractorSearch& near, Progress& progress,
-                                              const IsEnough& suffices) {
+                                              const IsEnough& suffices,
+                                              const AttractorOptions& options) {
   const Searching searching;
-  std::optional<AttractorSearch> found = real_follow(drive, near, progress, suffices);
+  std::optional<AttractorSearch> found = real_follow(drive, near, progress, suffices, options);
   if (found) ++drives;  // else it is searched
   return found;
 }

@@ -429,12 +429,17 @@ bool is_as(const AttractorSearch& found, const AttractorSearch& known) {
 
 std::optional<AttractorSearch> follow_attractors(const ReducedDrive& drive,
                                                  const AttractorSearch& known, Progress& progress,
-                                                 const IsEnough& suffices) {
+                                                 const IsEnough& suffices,
+                                                 const AttractorOptions& given) {
   const std::vector<Outcome> wanted = representatives(known.outcomes);
   const bool is_open =
       ends_of(known.outcomes, known.irregular).contains({MotionEnd::undecided, false});
   if (!known.is_complete || wanted.empty() || is_open) return std::nullopt;
-  AttractorOptions options{.nearby = &known, .most_edges = 0};
+  AttractorOptions options = given;
+  options.starts.clear();
+  options.is_enough = {};
+  options.nearby = &known;
+  options.most_edges = 0;
   for (const Outcome& outcome : wanted) {
     options.starts.push_back(within_gap(outcome.start, drive));
   }

@@ -185,11 +185,13 @@ AttractorSearch find_attractors(const ReducedDrive& drive, const AttractorOption
 /// motion or running away, all that there were and no other. Something new may have appeared then,
 /// and a search must find it, unless what was found `suffices`; where all these starts are
 /// undecided the first usual ones are asked for that too. Empty also where `known` was stopped, or
-/// has undecided starts beside some that rest. Throws InvalidInput.
+/// has undecided starts beside some that rest. Of the options, starts and edges do not count. Throws
+/// InvalidInput.
 std::optional<AttractorSearch> follow_attractors(const ReducedDrive& drive,
                                                  const AttractorSearch& known,
                                                  Progress& progress = no_progress(),
-                                                 const IsEnough& suffices = {});
+                                                 const IsEnough& suffices = {},
+                                                 const AttractorOptions& options = {});
 
 /// Those of the cycles of `known` that Newton's method finds again in a drive that differs
 /// slightly, stable or not, with the system that their orbits are of. Nothing is watched: the

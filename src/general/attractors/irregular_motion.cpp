@@ -170,9 +170,8 @@ double fastest_decay(const std::vector<Sample>& samples) {
   return -slope + student * std::sqrt(misfit / (static_cast<double>(blocks - 2) * squares));
 }
 
-bool excludes_decay(double fastest_decay, double watched) {
-  constexpr double hardly = 0.1;
-  return fastest_decay * watched <= hardly;
+bool excludes_decay(double fastest_decay, double watched, const IrregularTolerances& tolerances) {
+  return fastest_decay * watched <= tolerances.hidden_decay;
 }
 
 namespace {

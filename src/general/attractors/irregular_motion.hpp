@@ -28,8 +28,8 @@ bool is_sure(const IrregularFound& found, const IrregularTolerances& tolerances,
 /// if they surely grow.
 double fastest_decay(const std::vector<Sample>& samples);
 
-/// Whether that rate is less than a tenth of the reciprocal of the time of the measurement.
-bool excludes_decay(double fastest_decay, double watched);
+/// Whether swings that decay at that rate fall by no more than `hidden_decay` over the measurement.
+bool excludes_decay(double fastest_decay, double watched, const IrregularTolerances& tolerances);
 
 /// A stretch of a motion that is steady.
 struct SteadyMotion {

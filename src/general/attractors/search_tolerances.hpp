@@ -105,6 +105,9 @@ struct IrregularTolerances {
   /// a motor that hunts alone, and the extremes of swings that scatter and their middle, may differ
   /// by it too.
   double same_ranges = 0.15;
+  /// A decay of the swings by this share over a measurement may be hidden in their scatter: a
+  /// faster one must be excluded at 95 %.
+  double hidden_decay = 0.1;
   /// Middles of motions with the same means may differ by this share of the amplitude: integral
   /// action moves them slowly to and fro.
   double wandering = 0.3;

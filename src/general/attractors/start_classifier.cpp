@@ -127,9 +127,9 @@ double StartClassifier::longest(const Watch& watch, const Stretch& stretch, doub
   const bool hardly_moves =
       setting_.drive.sampling ||
       std::max(recent(turns), recent(extremes(watch.motor))) < budget_.hardly_any_swings;
-  const bool is_slow =
-      hardly_moves || is_small(turns, setting_, tolerances_.rest) || changes ||
-      !excludes_decay(fastest_decay(after(watch.load, stretch.from)), stretch.to - stretch.from);
+  const bool is_slow = hardly_moves || is_small(turns, setting_, tolerances_.rest) || changes ||
+                       !excludes_decay(fastest_decay(after(watch.load, stretch.from)),
+                                       stretch.to - stretch.from, tolerances_.irregular);
   constexpr double rounding = 1e-9;  // allows for rounding of the summed stretches
   const double more = is_slow ? patience : 1.0;
   const double times = setting_.drive.sampling ? more * budget_.patience_if_sampled : more;
@@ -292,7 +292,7 @@ bool StartClassifier::is_steady(const Watch& watch, const Stretch& stretch,
       now.repeats_course || (before && is_same(*before, now, setting_, irregular));
   before = now;
   if (!is_repeated || !is_sure(now.found, irregular, irregular.repeating_exactly) ||
-      !excludes_decay(now.found.fastest_decay, now.found.watched)) {
+      !excludes_decay(now.found.fastest_decay, now.found.watched, irregular)) {
     return false;
   }
   if (!closes(watch, stretch, now.found, verdict)) take(watch, now.found, verdict, &stretch);
@@ -378,7 +378,7 @@ void StartClassifier::give_up(const Watch& watch, const Stretch& stretch,
     return;
   }
   const SteadyMotion last = seen.reason.empty() ? steady(watch, stretch, seen.found) : *before;
-  if (!excludes_decay(last.found.fastest_decay, last.found.watched)) {
+  if (!excludes_decay(last.found.fastest_decay, last.found.watched, tolerances_.irregular)) {
     std::ostringstream reason;
     reason << std::setprecision(2) << "after " << watch.time
            << " s swings may still decay by up to " << last.found.fastest_decay << "/s";

@@ -38,18 +38,26 @@ std::vector<std::size_t> chain_of(std::span<const double> values, std::size_t co
 }
 
 /// A slow start may lead to rest, which does not matter where another hunts, unless the target asks
-/// for rest. It is not watched for long then, and a few that stay undecided are enough.
+/// for rest. It is not watched for long then, and a few that stay undecided are enough. Of
+/// irregular motion the amplitude counts: a decay that does not change it much may stay hidden.
+/// Where a neighbour's motions lead into hunting of another kind, that is the sample's.
 SearchScope hurried() {
   constexpr std::size_t few = 3;
+  constexpr double hidden_decay = 0.25;
   const auto hunts = [](const drive::AttractorSearch& search) {
     return search.count(drive::MotionEnd::cycle) > 0 ||
            search.count(drive::MotionEnd::irregular) > 0;
   };
-  return {.is_enough =
+  return {.suffices =
+              [](const Answer& followed) {
+                return gearlash::hunts(followed.verdict) && is_decided(followed);
+              },
+          .is_enough =
               [hunts](const drive::AttractorSearch& search) {
                 return hunts(search) && search.count(drive::MotionEnd::undecided) >= few;
               },
-          .may_hurry = hunts};
+          .may_hurry = hunts,
+          .tolerances = {.irregular = {.hidden_decay = hidden_decay}}};
 }
 
 }  // namespace
