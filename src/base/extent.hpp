@@ -8,14 +8,17 @@
 
 namespace gearlash {
 
+/// Makes bounds contain others.
+inline void widen(Bounds& bounds, const Bounds& by) {
+  bounds = {std::min(bounds.low, by.low), std::max(bounds.high, by.high)};
+}
+
 /// Of no number yet: from infinity to −infinity.
 struct Extent : Bounds {
   Extent() : Bounds{infinity, -infinity} {}
 
-  void include(double value) {
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
+  void include(double value) { widen(*this, {value, value}); }
+  void include(const Bounds& values) { widen(*this, values); }
   double width() const { return high > low ? high - low : 0.0; }
   double middle() const { return 0.5 * (low + high); }
 };

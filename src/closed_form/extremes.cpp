@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "base/bracketed_root.hpp"
-#include "base/special_numbers.hpp"
 #include "closed_form/phase.hpp"
 
 namespace gearlash {
@@ -19,11 +18,8 @@ struct Range {
 
   void include(const GapState& state) {
     const double load = reference + state.load_position;
-    const double motor = load + state.gap;
-    extremes.load_lowest = std::min(extremes.load_lowest, load);
-    extremes.load_highest = std::max(extremes.load_highest, load);
-    extremes.motor_lowest = std::min(extremes.motor_lowest, motor);
-    extremes.motor_highest = std::max(extremes.motor_highest, motor);
+    extremes.load.include(load);
+    extremes.motor.include(load + state.gap);
   }
 };
 
@@ -106,7 +102,7 @@ Extremes extremes(const Trajectory& trajectory, double from, double to) {
   const double first = std::clamp(from, trajectory.start_time(), trajectory.end_time());
   const double last = std::clamp(to, first, trajectory.end_time());
   const ServoDynamics& dynamics = trajectory.dynamics_;
-  Range range{trajectory.reference_, {infinity, -infinity, infinity, -infinity}};
+  Range range{trajectory.reference_, {}};
   for (const double end : {first, last}) {
     const Segment& segment = trajectory.segment_at(end);
     range.include(state_in_phase(dynamics, segment.phase, end - segment.start));

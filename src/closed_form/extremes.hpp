@@ -1,22 +1,17 @@
 // Extreme positions over a part of a trajectory, at exact turning points instead of samples.
 #pragma once
 
+#include "base/extent.hpp"
 #include "closed_form/trajectory.hpp"
 
 namespace gearlash {
 
 struct Extremes {
-  double load_lowest;
-  double load_highest;
-  double motor_lowest;
-  double motor_highest;
+  Extent load;
+  Extent motor;
 
-  double load_amplitude() const {
-    return 0.5 * (load_highest - load_lowest);
-  }  ///< half peak-to-peak
-  double motor_amplitude() const {
-    return 0.5 * (motor_highest - motor_lowest);
-  }  ///< half peak-to-peak
+  double load_amplitude() const { return 0.5 * load.width(); }
+  double motor_amplitude() const { return 0.5 * motor.width(); }
 };
 
 /// Extremes over [from, to], clamped to the trajectory, from ≤ to; positions as in at(). Turning

@@ -7,6 +7,11 @@
 
 namespace gearlash::hybrid {
 
+const std::string& Event::name(const HybridSystem& system) const {
+  const AffineMode& of = system.mode(mode);
+  return kind == EventKind::timed ? of.timed[transition].name : of.transitions[transition].name;
+}
+
 const HybridSystem& PreparedSystem::system() const { return preparation_->system(); }
 
 const std::vector<bool>& PreparedSystem::exogenous() const { return preparation_->exogenous(); }

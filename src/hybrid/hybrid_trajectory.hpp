@@ -32,6 +32,8 @@ struct Event {
   Vector before;
   Vector after;
 
+  /// Of the transition or the tick.
+  const std::string& name(const HybridSystem& system) const;
   /// Whether the same transition was taken between the same modes.
   bool is_alike(const Event& other) const {
     return kind == other.kind && mode == other.mode && transition == other.transition &&
@@ -104,7 +106,7 @@ class PreparedSystem {
  public:
   PreparedSystem() = default;  ///< empty: to be assigned to
   /// Throws InvalidInput with all faults of the system.
-  explicit PreparedSystem(HybridSystem system);
+  PreparedSystem(HybridSystem system);
   const HybridSystem& system() const;
   /// The numbers that nothing acts on (references, counts): HybridSystem::exogenous, or those found
   /// in a list of modes.
@@ -159,6 +161,24 @@ class Trajectory {
   StopReason stop_reason_ = StopReason::reached_end;
   std::string culprit_;
 };
+
+/// Calls visit(start, from, to, end) for each stretch between events, including those of no
+/// duration. `end` is the state before the event there.
+template <class Visit>
+void for_each_stretch(const Trajectory& motion, Visit&& visit) {
+  State here = motion.at(motion.start_time());
+  double time = motion.start_time();
+  if (!motion.events().empty() && motion.events().front().time == time) {
+    // at() gives the state after the events.
+    here = {motion.events().front().mode, motion.events().front().before};
+  }
+  for (const Event& event : motion.events()) {
+    visit(here, time, event.time, event.before);
+    here = {event.mode_after, event.after};
+    time = event.time;
+  }
+  visit(here, time, motion.end_time(), motion.end().numbers);
+}
 
 /// The motion from `start` on, by the rules of HybridSystem.
 ///

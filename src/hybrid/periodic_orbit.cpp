@@ -103,23 +103,12 @@ std::optional<PeriodicOrbit> closing_orbit(const PreparedSystem& system, const T
   return std::nullopt;
 }
 
-std::optional<PeriodicOrbit> closing_orbit(const HybridSystem& system, const Trajectory& motion,
-                                           const ShootingOptions& options) {
-  return closing_orbit(PreparedSystem(system), motion, options);
-}
-
 std::optional<PeriodicOrbit> neighbouring_orbit(const PreparedSystem& system,
                                                 const PeriodicOrbit& near,
                                                 const ShootingOptions& options) {
   auto shooting = Shooting::about(system, near.start, near.start_time, near.period,
                                   near.events.size(), options.phases);
   return shooting ? solved_by_newton(*shooting, options.most_steps) : std::nullopt;
-}
-
-std::optional<PeriodicOrbit> neighbouring_orbit(const HybridSystem& system,
-                                                const PeriodicOrbit& near,
-                                                const ShootingOptions& options) {
-  return neighbouring_orbit(PreparedSystem(system), near, options);
 }
 
 std::optional<PeriodicOrbit> neighbouring_orbit(const PreparedSystem& system,

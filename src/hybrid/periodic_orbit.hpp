@@ -45,17 +45,10 @@ struct ShootingOptions {
 /// reported once. Empty if nothing recurs or Newton's method does not converge.
 std::optional<PeriodicOrbit> closing_orbit(const PreparedSystem& system, const Trajectory& motion,
                                            const ShootingOptions& options = {});
-/// The same. Throws InvalidInput with all faults of the system.
-std::optional<PeriodicOrbit> closing_orbit(const HybridSystem& system, const Trajectory& motion,
-                                           const ShootingOptions& options = {});
 
 /// The orbit near another one's start, with the same number of events, for a system that has
 /// changed slightly.
 std::optional<PeriodicOrbit> neighbouring_orbit(const PreparedSystem& system,
-                                                const PeriodicOrbit& near,
-                                                const ShootingOptions& options = {});
-/// The same. Throws InvalidInput with all faults of the system.
-std::optional<PeriodicOrbit> neighbouring_orbit(const HybridSystem& system,
                                                 const PeriodicOrbit& near,
                                                 const ShootingOptions& options = {});
 

@@ -19,7 +19,7 @@ class RecurringEvents {
     for (std::size_t turn = 1; turn <= longest_turn; ++turn) {
       std::size_t& count = recurrences_[turn - 1];
       const bool recurs = events_.size() > turn && events_.back().kind == EventKind::transition &&
-                          is_same(events_.back(), events_[events_.size() - 1 - turn]);
+                          events_.back().is_alike(events_[events_.size() - 1 - turn]);
       count = recurs ? count + 1 : 0;
     }
   }
@@ -65,11 +65,6 @@ class RecurringEvents {
 
  private:
   static constexpr std::size_t longest_turn = 4;
-
-  static bool is_same(const Event& a, const Event& b) {
-    return a.mode == b.mode && a.transition == b.transition && a.kind == b.kind &&
-           a.mode_after == b.mode_after;
-  }
 
   const std::vector<Event>& events_;
   std::array<std::size_t, longest_turn> recurrences_{};  ///< by the length of a turn, from 1 on

@@ -433,10 +433,7 @@ class Simulation {
                           reason == StopReason::stopped;
     if (events.empty() || is_limit || reason == StopReason::diverged) return;
     const Event& last = events.back();
-    const AffineMode& mode = preparation_.mode(last.mode).mode();
-    trajectory_.culprit_ = mode.name + ": " +
-                           (last.kind == EventKind::timed ? mode.timed[last.transition].name
-                                                          : mode.transitions[last.transition].name);
+    trajectory_.culprit_ = system_.mode(last.mode).name + ": " + last.name(system_);
   }
 
   static constexpr double largest_number = 1e150;

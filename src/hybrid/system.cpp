@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/extent.hpp"
 #include "base/fault.hpp"
 #include "gearlash/hybrid.hpp"
 #include "hybrid/periodic_orbit.hpp"
@@ -110,43 +111,16 @@ namespace {
 
 State start_of(Mode mode, const Row& numbers) { return {mode.index, vector_of(numbers)}; }
 
-const std::string& name_of(const HybridSystem& system, const hybrid::Event& event) {
-  const AffineMode& mode = system.mode(event.mode);
-  return event.kind == EventKind::timed ? mode.timed[event.transition].name
-                                        : mode.transitions[event.transition].name;
-}
-
-/// The extremes of a form while a mode's flow is followed for so long: at both ends, and wherever
-/// its derivative vanishes, which is an event of a system of one mode.
-class FormInMode {
- public:
-  FormInMode(const HybridSystem& system, std::size_t mode, const AffineForm& form)
-      : form_(form), alone_(with_turns(system, mode, form)) {}
-
-  void widen(Bounds& extent, const Vector& start, double duration) const {
-    const auto include = [&](const Vector& state) {
-      extent.low = std::min(extent.low, form_.at(state));
-      extent.high = std::max(extent.high, form_.at(state));
-    };
-    const Trajectory motion = simulate(alone_, {0, start}, {.until = duration});
-    include(start);
-    for (const hybrid::Event& turn : motion.events()) include(turn.before);
-    include(motion.end().numbers);
-  }
-
- private:
-  static PreparedSystem with_turns(const HybridSystem& system, std::size_t mode,
-                                   const AffineForm& form) {
-    const AffineFlow& flow = system.mode(mode).flow;
+/// The flow of each mode alone, with events where a form's derivative vanishes.
+PreparedSystem with_turns(const HybridSystem& system, const AffineForm& form) {
+  HybridSystem turns{.state_names = system.state_names};
+  for (std::size_t i = 0; i < system.mode_count(); ++i) {
+    const AffineFlow& flow = system.mode(i).flow;
     const AffineForm slope{flow.matrix.transpose() * form.normal, form.normal.dot(flow.offset)};
-    HybridSystem alone{.state_names = system.state_names};
-    alone.modes = {{"alone", flow, {{"turn", slope, Direction::either, {}, 0, {}, {}}}, {}}};
-    return PreparedSystem(std::move(alone));
+    turns.modes.push_back({"alone", flow, {{"turn", slope, Direction::either, {}, i, {}, {}}}, {}});
   }
-
-  AffineForm form_;
-  PreparedSystem alone_;
-};
+  return turns;
+}
 
 }  // namespace
 
@@ -155,7 +129,7 @@ Motion::Motion(const System& system, Trajectory trajectory)
   const HybridSystem& engine = assembled(system);
   for (const hybrid::Event& event : trajectory_->events()) {
     events_.push_back({event.time,
-                       name_of(engine, event),
+                       event.name(engine),
                        {event.mode},
                        {event.mode_after},
                        row_of(event.before),
@@ -208,24 +182,17 @@ Bounds extent(const System& system, const Orbit& orbit, const Form& form) {
     throw InvalidInput({{"form.normal", std::to_string(form.normal.size()) + " numbers",
                          "must be " + std::to_string(engine.size()) + " numbers", ""}});
   }
-  const double from = orbit.start_time;
-  const double until = from + orbit.period;
-  State here = start_of(orbit.mode, orbit.start);
-  const Trajectory turn = simulate(engine, here, {.from = from, .until = until});
-  Bounds extent{affine.at(here.numbers), affine.at(here.numbers)};
-  std::vector<std::optional<FormInMode>> modes(engine.mode_count());
-  double time = from;
-  const auto follow = [&](double next) {
-    std::optional<FormInMode>& mode = modes[here.mode];
-    if (!mode) mode.emplace(engine, here.mode, affine);
-    mode->widen(extent, here.numbers, next - time);
-    time = next;
-  };
-  for (const hybrid::Event& event : turn.events()) {
-    follow(event.time);
-    here = {event.mode_after, event.after};
-  }
-  follow(until);
+  const PreparedSystem turns = with_turns(engine, affine);
+  const Trajectory turn =
+      simulate(engine, start_of(orbit.mode, orbit.start),
+               {.from = orbit.start_time, .until = orbit.start_time + orbit.period});
+  Extent extent;
+  for_each_stretch(turn, [&](const State& start, double from, double to, const Vector& end) {
+    extent.include(affine.at(start.numbers));
+    const Trajectory stretch = simulate(turns, start, {.until = to - from});
+    for (const hybrid::Event& event : stretch.events()) extent.include(affine.at(event.before));
+    extent.include(affine.at(end));
+  });
   return extent;
 }
 

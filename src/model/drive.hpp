@@ -168,6 +168,8 @@ struct SensingOf {
   Number resolution = 0.0;           ///< rad, ≥ 0
   Number resolution_of_speed = 0.0;  ///< rad, ≥ 0; for the position whose differences are the speed
 
+  bool reads_steps() const { return resolution > 0.0 || resolution_of_speed > 0.0; }
+
   static constexpr auto members() {
     return std::make_tuple(&SensingOf::load_share_of_position, &SensingOf::load_share_of_speed,
                            &SensingOf::resolution, &SensingOf::resolution_of_speed);

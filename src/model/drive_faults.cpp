@@ -218,13 +218,6 @@ std::vector<Fault> servo_faults(const Drivetrain& drivetrain) {
   return found;
 }
 
-/// Replaces a value outside its range by 0.5, which is within every range.
-void mend(Drive& drive, const Parameter& parameter) {
-  const Slot slot = parameter.slot(drive);
-  if (auto* const* place = std::get_if<double*>(&slot)) **place = 0.5;
-  if (auto* const* place = std::get_if<std::optional<double>*>(&slot)) **place = 0.5;
-}
-
 /// Steps so fine that positions have no digits left to count them by.
 void check_counts(RangeCheck& check, const Drive& drive) {
   constexpr double most = 1099511627776.0;  // 2⁴⁰
@@ -332,9 +325,7 @@ void check_size(RangeCheck& check, const Parameter& parameter, const Drive& driv
     for (const std::vector<double>& row : **rows) check_sizes(check, path, row);
     return;
   }
-  const bool is_number =
-      std::holds_alternative<double*>(slot) || std::holds_alternative<std::optional<double>*>(slot);
-  if (!is_number || parameter.permitted == Permitted::of_normal_form) return;
+  if (parameter.permitted == Permitted::of_normal_form) return;
   const std::optional<double> number = number_in(parameter, drive);
   if (!number) return;
   const Dimension* dimension = parameter.dimension(drive);
@@ -411,7 +402,8 @@ std::vector<Fault> faults(const Drive& drive, drive::ReducedDrive& reduced) {
     const Dimension* dimension = parameter.dimension(drive);
     const std::size_t before = check.faults().size();
     check_number(check, parameter, *value, dimension == nullptr ? "" : dimension->unit);
-    if (check.faults().size() > before) mend(mended, parameter);
+    if (check.faults().size() == before) continue;
+    if (double* number = given_number(parameter.slot(mended))) *number = 0.5;  // in every range
   }
   check_torques(check, drive);
   check_error_shape(check, drive);

@@ -17,8 +17,7 @@ bool has_torque(const Drive& drive) {
 /// The shaft of the angles that the firmware counts. A torque is the motor's.
 GainShaft counted_shaft(const Drive& drive) {
   if (drive.sensor.position == SensorPlace::motor) return GainShaft::motor;
-  const bool has_torque = std::holds_alternative<TorqueControl>(drive.motor.kind);
-  return has_torque ? GainShaft::mixed : GainShaft::load;
+  return has_torque(drive) ? GainShaft::mixed : GainShaft::load;
 }
 
 PIDTerms terms_of(double integral, double derivative) {

@@ -58,6 +58,8 @@ double* number_place(const Slot& slot, const IndexedPath& indexed, std::string_v
   return nullptr;
 }
 
+}  // namespace
+
 ParameterKind kind_of(const Parameter& parameter, const Drive& drive) {
   const Slot slot = parameter.slot(const_cast<Drive&>(drive));
   return std::visit(Overloaded{[](const Choice&) { return ParameterKind::choice; },
@@ -67,8 +69,6 @@ ParameterKind kind_of(const Parameter& parameter, const Drive& drive) {
                                [](const auto&) { return ParameterKind::number; }},
                     slot);
 }
-
-}  // namespace
 
 const OtherForm* form_named(const Parameter& parameter, std::string_view path) {
   for (const OtherForm& form : parameter.other_forms) {

@@ -107,12 +107,18 @@ std::string_view reason_against(const Parameter& parameter, std::string_view wor
   return {};
 }
 
+double* given_number(const Slot& slot) {
+  if (auto* const* number = std::get_if<double*>(&slot)) return *number;
+  auto* const* given = std::get_if<std::optional<double>*>(&slot);
+  return given != nullptr && **given ? &***given : nullptr;
+}
+
 std::optional<double> number_in(const Parameter& parameter, const Drive& drive) {
   const Slot slot = parameter.slot(const_cast<Drive&>(drive));
-  if (const auto* number = std::get_if<double*>(&slot)) return **number;
-  const auto* given = std::get_if<std::optional<double>*>(&slot);
-  if (given == nullptr) return std::nullopt;
-  if (**given || parameter.otherwise.empty()) return **given;
+  if (const double* number = given_number(slot)) return *number;
+  if (!std::holds_alternative<std::optional<double>*>(slot) || parameter.otherwise.empty()) {
+    return std::nullopt;
+  }
   const Parameter* other = find_parameter(parameter.otherwise);
   return other == nullptr ? std::nullopt : number_in(*other, drive);
 }

@@ -12,6 +12,7 @@
 
 #include "base/range_check.hpp"
 #include "gearlash/drive.hpp"
+#include "gearlash/parameter.hpp"
 #include "model/dimension.hpp"
 
 namespace gearlash {
@@ -107,6 +108,12 @@ struct Section {
   void (*add)(Drive& drive);  ///< makes an optional section
 };
 const std::vector<Section>& all_sections();
+
+/// Of the parameter, by its slot in the drive. Precondition: exists().
+ParameterKind kind_of(const Parameter& parameter, const Drive& drive);
+
+/// Where the slot's number lies; nullptr if it is not given, or holds something else.
+double* given_number(const Slot& slot);
 
 /// Whether the drive has this parameter.
 bool exists(const Parameter& parameter, const Drive& drive);

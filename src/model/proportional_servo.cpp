@@ -131,11 +131,7 @@ bool enters_servo(const Drive& drive, std::string_view path) {
   if (present.servo && present.servo->damping == 0.0) present.servo->damping = 1.0;
   if (present.gearbox.ratio == 0.0) present.gearbox.ratio = 1.0;
   Drive changed = present;
-  const Slot slot = parameter->slot(changed);
-  double* place = std::get_if<double*>(&slot) ? std::get<double*>(slot) : nullptr;
-  if (auto* const* given = std::get_if<std::optional<double>*>(&slot); given && **given) {
-    place = &***given;
-  }
+  double* place = given_number(parameter->slot(changed));
   if (place == nullptr || (*place == 0.0 && parameter->path == "gearbox.inertia")) return false;
   *place = *place == 0.0 || std::isinf(*place) ? 0.5 : 0.75 * *place;
   const auto after = drive::proportional_drivetrain(reduce(changed));

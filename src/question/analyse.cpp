@@ -119,10 +119,8 @@ void add_pieces(const std::vector<RestPiece>& pieces, Rest& rest) {
   Extent motor;
   for (const RestPiece& piece : pieces) {
     if (acts(piece) && !all_are_limited) continue;
-    for (const auto& [extent, bounds] : {std::pair(&load, &piece.load), {&motor, &piece.motor}}) {
-      extent->include(bounds->low);
-      extent->include(bounds->high);
-    }
+    load.include(piece.load);
+    motor.include(piece.motor);
   }
   rest.load = load;
   rest.motor = motor;
@@ -180,9 +178,6 @@ Rest rest_of(const drive::AttractorSearch& search, const drive::ReducedDrive& re
   const Rest seen = rest;
   add_pieces(pieces, rest);
   if (found.creeping_starts == 0) return rest;
-  const auto widen = [](Bounds& bounds, const Bounds& by) {
-    bounds = {std::min(bounds.low, by.low), std::max(bounds.high, by.high)};
-  };
   widen(rest.load, seen.load);
   widen(rest.motor, seen.motor);
   rest.error = {0.0 - rest.load.high, 0.0 - rest.load.low};
@@ -200,9 +195,7 @@ StartOutcome outcome_of(const drive::Outcome& found) {
                        .reason = found.reason,
                        .rest = found.rest,
                        .time_to_rest = found.time_to_rest};
-  if (found.end == drive::MotionEnd::cycle || found.end == drive::MotionEnd::irregular) {
-    outcome.which = found.which;
-  }
+  if (swings(found.end)) outcome.which = found.which;
   return outcome;
 }
 
@@ -212,7 +205,7 @@ Verdict verdict_of(const drive::AttractorSearch& search, const drive::ReducedDri
                    const std::vector<IrregularMotion>& motions) {
   const bool rests = search.count(drive::MotionEnd::rest) > 0;
   const bool cycles = search.count(drive::MotionEnd::cycle) > 0;
-  const bool swings = cycles || search.count(drive::MotionEnd::irregular) > 0;
+  const bool swings = search.swings();
   const bool diverges = search.count(drive::MotionEnd::diverges) > 0;
   const std::size_t undecided = search.count(drive::MotionEnd::undecided);
   const bool is_open = undecided > 0 || !search.is_complete;
@@ -312,9 +305,7 @@ bool is_of_few_steps(const Answer& answer) {
 std::vector<drive::ShaftStates> starts_that_swing(const drive::AttractorSearch& search) {
   std::vector<drive::ShaftStates> all;
   for (const drive::Outcome& outcome : search.outcomes) {
-    const bool swings =
-        outcome.end == drive::MotionEnd::cycle || outcome.end == drive::MotionEnd::irregular;
-    if (swings) all.push_back(outcome.start);
+    if (swings(outcome.end)) all.push_back(outcome.start);
   }
   if (all.size() > 3) all = {all.front(), all[all.size() / 2], all.back()};
   return all;
@@ -326,12 +317,7 @@ std::optional<bool> is_quantization(const Drive& drive, const drive::AttractorSe
   Drive exact = drive;
   exact.sensor.encoder = {};
   exact.sensor.speed_encoder = {};
-  SearchScope scope{.is_enough =
-                        [](const drive::AttractorSearch& so_far) {
-                          return so_far.count(drive::MotionEnd::cycle) +
-                                     so_far.count(drive::MotionEnd::irregular) >
-                                 0;
-                        },
+  SearchScope scope{.is_enough = [](const auto& so_far) { return so_far.swings(); },
                     .starts = starts_that_swing(search)};
   const Answer answer =
       analyse_in_full(exact,

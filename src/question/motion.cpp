@@ -190,9 +190,7 @@ class GeneralMotion : public Motion::Source {
   std::string_view mode_name(std::size_t mode) const { return system_.system.mode(mode).name; }
 
   std::string text_of(const hybrid::Event& event) const {
-    const hybrid::AffineMode& mode = system_.system.mode(event.mode);
-    if (event.kind == hybrid::EventKind::timed) return mode.timed[event.transition].name;
-    const std::string& name = mode.transitions[event.transition].name;
+    const std::string& name = event.name(system_.system);
     return event.kind == hybrid::EventKind::settling ? name + " (settled)" : name;
   }
 

@@ -83,18 +83,15 @@ void measure(const Path& path, bool is_stopped, StepResponse& response) {
   const std::optional<double> settled = path.time_into_band(step, response.band);
   if (settled && *settled <= late && !is_stopped) response.settling_time = settled;
   double highest = 0.0;
-  double last_lowest = std::numeric_limits<double>::infinity();
-  double last_highest = -last_lowest;
+  Extent last;
   for (const Sample& point : path.points()) {
     highest = std::max(highest, point.value);
-    if (point.time < late) continue;
-    last_lowest = std::min(last_lowest, point.value);
-    last_highest = std::max(last_highest, point.value);
+    if (point.time >= late) last.include(point.value);
   }
   if (response.is_whole) response.overshoot = std::max(0.0, highest / step - 1.0);
-  const double error = step - 0.5 * (last_lowest + last_highest);
+  const double error = step - last.middle();
   response.final_error = response.step < 0.0 ? -error : error;
-  response.ripple = 0.5 * (last_highest - last_lowest);
+  response.ripple = 0.5 * last.width();
 }
 
 /// The motion whose response is measured.

@@ -31,27 +31,25 @@ TEST(PropertyExtremes, NoSampleLiesOutsideAndTheyAreReached) {
     const double scale = start.scale() + std::abs(start.reference);
     const double noise = 64.0 * epsilon * 4.0 * scale;
     double fastest = scale;
-    Extremes seen{1e300, -1e300, 1e300, -1e300};
+    Extremes seen;
     constexpr int samples = 2000;
     for (int k = 0; k <= samples; ++k) {
       const ServoState s = motion.at(from + (to - from) * k / samples);
-      seen = {std::min(seen.load_lowest, s.load_position),
-              std::max(seen.load_highest, s.load_position),
-              std::min(seen.motor_lowest, s.motor_position),
-              std::max(seen.motor_highest, s.motor_position)};
+      seen.load.include(s.load_position);
+      seen.motor.include(s.motor_position);
       fastest = std::max({fastest, std::abs(s.load_speed), std::abs(s.motor_speed)});
     }
-    ASSERT_LE(range.load_lowest, seen.load_lowest + noise);
-    ASSERT_GE(range.load_highest, seen.load_highest - noise);
-    ASSERT_LE(range.motor_lowest, seen.motor_lowest + noise);
-    ASSERT_GE(range.motor_highest, seen.motor_highest - noise);
+    ASSERT_LE(range.load.low, seen.load.low + noise);
+    ASSERT_GE(range.load.high, seen.load.high - noise);
+    ASSERT_LE(range.motor.low, seen.motor.low + noise);
+    ASSERT_GE(range.motor.high, seen.motor.high - noise);
     // The nearest sample is half a step away, at no more than the largest speed (doubled, for what
     // the samples may not show of it).
     const double missed = 2.0 * fastest * (to - from) / samples + noise;
-    ASSERT_GE(range.load_lowest, seen.load_lowest - missed);
-    ASSERT_LE(range.load_highest, seen.load_highest + missed);
-    ASSERT_GE(range.motor_lowest, seen.motor_lowest - missed);
-    ASSERT_LE(range.motor_highest, seen.motor_highest + missed);
+    ASSERT_GE(range.load.low, seen.load.low - missed);
+    ASSERT_LE(range.load.high, seen.load.high + missed);
+    ASSERT_GE(range.motor.low, seen.motor.low - missed);
+    ASSERT_LE(range.motor.high, seen.motor.high + missed);
   }
 }
 
@@ -100,10 +98,10 @@ TEST(PropertyExtremes, ShaftsThatTurnWhileTheFacesSettle) {
         // Where the speed jumps past zero the nearest sample is half a step away.
         const double missed = fastest * step;
         constexpr double noise = 4.0 * epsilon;
-        EXPECT_LE(range.load_lowest - load_lowest, noise);
-        EXPECT_LE(load_lowest - range.load_lowest, missed + noise);
-        EXPECT_LE(range.motor_lowest - motor_lowest, noise);
-        EXPECT_LE(motor_lowest - range.motor_lowest, missed + noise);
+        EXPECT_LE(range.load.low - load_lowest, noise);
+        EXPECT_LE(load_lowest - range.load.low, missed + noise);
+        EXPECT_LE(range.motor.low - motor_lowest, noise);
+        EXPECT_LE(motor_lowest - range.motor.low, missed + noise);
       }
     }
   }
@@ -115,9 +113,9 @@ TEST(OracleExtremes, OvershootOfTheStepResponse) {
   const Trajectory motion = simulate(servo, {}, {.until = 20.0, .reference = 1.0});
   const Extremes range = extremes(motion, 0.0, 20.0);
   const double peak = 1.0 + std::exp(-0.3 * std::numbers::pi / std::sqrt(0.91));
-  EXPECT_NEAR(range.load_highest, peak, 8.0 * epsilon);
-  EXPECT_EQ(range.load_lowest, 0.0);
-  EXPECT_EQ(range.motor_highest, range.load_highest);
+  EXPECT_NEAR(range.load.high, peak, 8.0 * epsilon);
+  EXPECT_EQ(range.load.low, 0.0);
+  EXPECT_EQ(range.motor.high, range.load.high);
   EXPECT_NEAR(range.load_amplitude(), 0.5 * peak, 8.0 * epsilon);
 }
 
@@ -127,12 +125,12 @@ TEST(EdgeExtremes, EmptyAndClampedStretches) {
   const Trajectory motion =
       simulate(servo, engaged_start(servo, 0.0, 0.0, 1.0), {.until = 10.0, .reference = 1.0});
   const Extremes point = extremes(motion, 2.0, 2.0);
-  EXPECT_EQ(point.load_lowest, motion.at(2.0).load_position);
+  EXPECT_EQ(point.load.low, motion.at(2.0).load_position);
   EXPECT_EQ(point.load_amplitude(), 0.0);
   const Extremes whole = extremes(motion, 0.0, 10.0);
   const Extremes beyond = extremes(motion, -5.0, 50.0);
-  EXPECT_EQ(whole.load_highest, beyond.load_highest);
-  EXPECT_EQ(whole.motor_lowest, beyond.motor_lowest);
+  EXPECT_EQ(whole.load.high, beyond.load.high);
+  EXPECT_EQ(whole.motor.low, beyond.motor.low);
 }
 
 }  // namespace

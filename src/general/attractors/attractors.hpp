@@ -93,6 +93,11 @@ struct IrregularFound {
 
 enum class MotionEnd { rest, cycle, irregular, diverges, undecided };
 
+/// Whether the motion goes on and stays bounded.
+constexpr bool swings(MotionEnd end) {
+  return end == MotionEnd::cycle || end == MotionEnd::irregular;
+}
+
 /// Where a start led.
 struct Outcome {
   ShaftStates start;
@@ -134,6 +139,8 @@ struct AttractorSearch {
   bool rests_until_disturbed = false;
 
   std::size_t count(MotionEnd end) const;
+  /// Whether a start led to such motion.
+  bool swings() const { return count(MotionEnd::cycle) + count(MotionEnd::irregular) > 0; }
 };
 
 using IsEnough = std::function<bool(const AttractorSearch&)>;

@@ -22,24 +22,6 @@ using hybrid::Vector;
 
 constexpr unsigned bits_of_time = 40;
 
-/// Calls visit(start, from, to, end) for each stretch between events, including those of no
-/// duration. `end` is the state before the event there.
-template <class Visit>
-void for_each_stretch(const Trajectory& motion, Visit&& visit) {
-  State here = motion.at(motion.start_time());
-  double time = motion.start_time();
-  if (!motion.events().empty() && motion.events().front().time == time) {
-    // at() gives the state after the events.
-    here = {motion.events().front().mode, motion.events().front().before};
-  }
-  for (const Event& event : motion.events()) {
-    visit(here, time, event.time, event.before);
-    here = {event.mode_after, event.after};
-    time = event.time;
-  }
-  visit(here, time, motion.end_time(), motion.end().numbers);
-}
-
 }  // namespace
 
 HybridSystem with_turns(const HybridSystem& system, const hybrid::AffineForm& speed,

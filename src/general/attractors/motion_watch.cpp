@@ -229,10 +229,7 @@ Stretch follow(Watch& watch, double until, std::size_t step_limit, std::size_t e
   stretch.events = motion.events().size();
   const std::vector<Extent> all = extents(motion, motion.start_time());
   if (watch.all.empty()) watch.all = all;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    watch.all[i].include(all[i].low);
-    watch.all[i].include(all[i].high);
-  }
+  for (std::size_t i = 0; i < all.size(); ++i) watch.all[i].include(all[i]);
   stretch.last = extents(motion, 0.5 * (motion.start_time() + motion.end_time()));
   const std::vector<Sample> load = rough_samples(motion, setting.load);
   const std::vector<Sample> motor = rough_samples(motion, setting.motor);
@@ -499,11 +496,8 @@ bool shrink_on_average(const std::vector<Sample>& turns, const RestTolerances& t
 /// Whether small motion has no size but its own: nothing but the gap, which it does not fill, tells
 /// a swing from one half as large.
 bool has_no_small_size(const ReducedDrive& drive) {
-  const auto* torque = std::get_if<double>(&drive.load_torque);
-  const bool is_pushed = torque == nullptr || *torque != 0.0;
-  const bool is_read = drive.sensing.resolution > 0.0 || drive.sensing.resolution_of_speed > 0.0;
-  return !has_dry_friction(drive) && !is_read && !drive.error_shape.is_present() && !is_pushed &&
-         std::holds_alternative<double>(drive.reference);
+  return !has_dry_friction(drive) && !drive.sensing.reads_steps() &&
+         !drive.error_shape.is_present() && is_mirrored(drive);
 }
 
 }  // namespace

@@ -395,8 +395,7 @@ void StartClassifier::take(const Watch& watch, const IrregularFound& found, Verd
   verdict.irregular = found;
   const bool is_known =
       place_among(search_.irregular, found, tolerances_.irregular) != search_.irregular.size();
-  const Sensing& sensing = setting_.drive.sensing;
-  if (is_known || sensing.resolution > 0.0 || sensing.resolution_of_speed > 0.0) return;
+  if (is_known || setting_.drive.sensing.reads_steps()) return;
   const bool is_kept = stretch != nullptr && stretch->motion;
   verdict.irregular.exponent = largest_exponent(
       setting_.system.system(),

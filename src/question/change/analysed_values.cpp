@@ -238,23 +238,16 @@ AnalysedLine::Known fill(FeasibleValues& found, const DriveAlong& drive, const T
 
 }  // namespace
 
-FeasibleValues feasible_along(const DriveAlong& drive, const std::vector<double>& grid,
-                              const Target& target, Progress& progress) {
-  FeasibleValues found{.searched = {grid.front(), grid.back()}, .grid = grid};
-  fill(found, drive, target, wanted_for(target, drive(grid.front())), progress, judged_numbers);
-  return found;
+AnalysedLine::Known searched_values(const DriveAlong& drive, const Target& target,
+                                    const Wanted& wanted, FeasibleValues& found,
+                                    Progress& progress) {
+  return fill(found, drive, target, wanted, progress, judged_numbers);
 }
 
-AnalysedLine::Known search_numbers(const Drive& drive, const Axis& axis, const Target& target,
-                                   FeasibleValues& found, Progress& progress) {
-  return fill(found, drives_along(axis, drive), target, wanted_for(target, drive), progress,
-              judged_numbers);
-}
-
-AnalysedLine::Known search_words(const Drive& drive, const Axis& axis, const Target& target,
-                                 FeasibleValues& found, Progress& progress) {
-  return fill(found, drives_along(axis, drive), target, wanted_for(target, drive), progress,
-              judged_words);
+AnalysedLine::Known searched_words(const DriveAlong& drive, const Target& target,
+                                   const Wanted& wanted, FeasibleValues& found,
+                                   Progress& progress) {
+  return fill(found, drive, target, wanted, progress, judged_words);
 }
 
 }  // namespace gearlash

@@ -9,23 +9,19 @@
 
 namespace gearlash {
 
-/// Fills in the intervals of values that meet the target. `found` has its grid and its range. The
-/// drive is analysed afresh at each value of the grid and at the ends of intervals. Between two
-/// values, of which one meets the target, following closes in on the last one that does. If
-/// that misses the target when it is analysed afresh, the search between is repeated without
-/// following; if values just inside do, the interval ends before them. A value whose drive is
-/// unsound does not meet the target. Returns the fresh analysis at `found.closest`, or nullptr.
+/// Fills in the intervals of values that meet the target. `found` has its range, and its grid
+/// rises. The drive is analysed afresh at each value of the grid and at the ends of intervals.
+/// Between two values, of which one meets the target, following closes in on the last one that
+/// does. If that misses the target when it is analysed afresh, the search between is repeated
+/// without following; if values just inside do, the interval ends before them. A value whose drive
+/// is unsound does not meet the target. Returns the fresh analysis at `found.closest`, or nullptr.
 /// Precondition: a sound drive and target.
-AnalysedLine::Known search_numbers(const Drive& drive, const Axis& axis, const Target& target,
-                                   FeasibleValues& found, Progress& progress);
+AnalysedLine::Known searched_values(const DriveAlong& drive, const Target& target,
+                                    const Wanted& wanted, FeasibleValues& found,
+                                    Progress& progress);
 
 /// The same for the choices of a word, each by itself.
-AnalysedLine::Known search_words(const Drive& drive, const Axis& axis, const Target& target,
-                                 FeasibleValues& found, Progress& progress);
-
-/// What search_numbers() finds, with the numbers of any line for values of a parameter. `grid`: the
-/// numbers at which the drive is analysed afresh, rising. Precondition: the target has no faults.
-FeasibleValues feasible_along(const DriveAlong& drive, const std::vector<double>& grid,
-                              const Target& target, Progress& progress);
+AnalysedLine::Known searched_words(const DriveAlong& drive, const Target& target,
+                                   const Wanted& wanted, FeasibleValues& found, Progress& progress);
 
 }  // namespace gearlash

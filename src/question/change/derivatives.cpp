@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "base/progress_part.hpp"
 #include "base/range_check.hpp"
@@ -79,23 +80,23 @@ Jacobian jacobian_of(const Drive& drive, std::span<const Quantity> quantities,
   const ProportionalServo servo = servo_without_checks(closed);
   const PresentServo present(servo);
   const Answer known = present.answer_beside(servo);
-  Jacobian jacobian{.reason = present.reason};
+  std::vector<std::string> paths;
+  std::vector<double> presents;
   std::vector<ServoLine> lines;
   RangeCheck check;
   for (const std::string& name : names) {
     const std::string path = path_named(name, closed);
     if (auto line = ServoLine::along(closed, path)) {
-      jacobian.paths.push_back(path);
-      jacobian.present.push_back(line->present());
+      paths.push_back(path);
+      presents.push_back(line->present());
       lines.push_back(*std::move(line));
     } else {
       check.refuse("paths", name, "must be a number of this drive that enters its closed form");
     }
   }
   require_none(check.faults());
-  jacobian.quantities.assign(quantities.begin(), quantities.end());
-  for (const Quantity quantity : quantities) jacobian.values.push_back(known.value(quantity));
-  jacobian.slopes.resize(quantities.size() * lines.size());
+  Jacobian jacobian = without_slopes(quantities, std::move(paths), std::move(presents), known);
+  jacobian.reason = present.reason;
   for (std::size_t j = 0; j < lines.size(); ++j) {
     const auto answer_at = [&](double value) -> Answer {
       if (is_plastic_restitution(jacobian.paths[j], jacobian.present[j])) return Answer(known);
@@ -109,6 +110,19 @@ Jacobian jacobian_of(const Drive& drive, std::span<const Quantity> quantities,
 }
 
 }  // namespace
+
+Jacobian without_slopes(std::span<const Quantity> quantities, std::vector<std::string> paths,
+                        std::vector<double> present, const Answer& answer) {
+  Jacobian jacobian{.quantities = {quantities.begin(), quantities.end()},
+                    .paths = std::move(paths),
+                    .values = {},
+                    .present = std::move(present),
+                    .slopes = {},
+                    .reason = {}};
+  for (const Quantity quantity : quantities) jacobian.values.push_back(answer.value(quantity));
+  jacobian.slopes.resize(quantities.size() * jacobian.paths.size());
+  return jacobian;
+}
 
 void set_slopes(Jacobian& jacobian, std::size_t parameter, const AnswerAt& answer_at,
                 DifferenceSteps steps) {
@@ -133,19 +147,15 @@ void set_slopes(Jacobian& jacobian, std::size_t parameter, const AnswerAt& answe
   }
 }
 
-Jacobian drive_sensitivity(const Drive& drive, const std::vector<std::string>& names) {
-  return jacobian_of(drive, differentiable, names);
-}
-
 Jacobian drive_sensitivity(const Drive& drive) {
-  if (drive.servo) return drive_sensitivity(drive, usual_parameters(drive));
+  if (drive.servo) return jacobian_of(drive, differentiable, usual_parameters(drive));
   const Drive closed = without_ended_signals(drive);
   std::vector<std::string> names;
   for (const Parameter& parameter : all_parameters_of_drives()) {
     const bool is_its_own = find_parameter(parameter.path, closed) == &parameter;
     if (is_its_own && enters_servo(closed, parameter.path)) names.emplace_back(parameter.path);
   }
-  return drive_sensitivity(drive, names);
+  return jacobian_of(drive, differentiable, names);
 }
 
 Jacobian sensitivities(const Drive& drive, const Analysis& analysis, Progress& progress) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,17 +23,17 @@ inline constexpr std::array differentiable = {Quantity::amplitude, Quantity::per
 /// present value; without a motion where that is lost.
 using AnswerAt = std::function<Answer(double)>;
 
+/// A Jacobian without slopes yet, of a drive with this answer.
+Jacobian without_slopes(std::span<const Quantity> quantities, std::vector<std::string> paths,
+                        std::vector<double> present, const Answer& answer);
+
 /// Sets the slopes by one parameter of a Jacobian whose other members are set: differences() of the
 /// answers. A center's errors are shares of the amplitude. An amplitude of 0 has no slope.
 void set_slopes(Jacobian& jacobian, std::size_t parameter, const AnswerAt& answer_at,
                 DifferenceSteps steps);
 
-/// Derivatives of all quantities with respect to the named numbers. Precondition: a closed form.
-/// Throws InvalidInput for a number that does not enter it.
-Jacobian drive_sensitivity(const Drive& drive, const std::vector<std::string>& names);
-
-/// Derivatives with respect to every parameter that enters the closed form; for a normal form, with
-/// respect to usual_parameters(). Precondition: a closed form.
+/// Derivatives of all quantities with respect to every parameter that enters the closed form; for a
+/// normal form, with respect to usual_parameters(). Precondition: a closed form.
 Jacobian drive_sensitivity(const Drive& drive);
 
 /// The same of any drive whose analysis is known: of a searched one by orbit_derivatives(). Empty

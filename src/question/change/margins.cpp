@@ -11,6 +11,7 @@
 #include "question/change/analysed_values.hpp"
 #include "question/change/overall_margin.hpp"
 #include "question/change/target.hpp"
+#include "question/change/value_scan.hpp"
 #include "question/family/analysed_line.hpp"
 
 namespace gearlash {
@@ -19,11 +20,6 @@ namespace {
 /// Whether the drive with a value of the parameter is sound.
 using IsSoundAt = std::function<bool(double)>;
 
-bool is_undecided(const FeasibleValues& quiet, double value) {
-  return std::any_of(quiet.undecided.begin(), quiet.undecided.end(),
-                     [&](const Bounds& part) { return part.contains(value); });
-}
-
 /// Keeps a border of a drive that rests only if the drive is known to hunt beyond it.
 void keep_if_hunting_begins(std::optional<double>& border, double outwards,
                             const FeasibleValues& quiet, const IsSoundAt& is_sound_at) {
@@ -31,7 +27,7 @@ void keep_if_hunting_begins(std::optional<double>& border, double outwards,
   const double range = quiet.searched.high - quiet.searched.low;
   constexpr double nearest = 1e-3;  // of `located`, of the range: what counts as one value
   const double apart = 2.0 * quiet.located * std::max(std::abs(*border), nearest * range);
-  if (is_undecided(quiet, *border) || !is_sound_at(*border + outwards * apart)) {
+  if (is_in(quiet.undecided, *border) || !is_sound_at(*border + outwards * apart)) {
     border.reset();
   }
 }
@@ -39,7 +35,7 @@ void keep_if_hunting_begins(std::optional<double>& border, double outwards,
 void set_choices(const FeasibleValues& quiet, const IsSoundAt& is_sound_at,
                  ParameterMargin& margin) {
   for (const double word : quiet.grid) {
-    if (word == quiet.present || is_undecided(quiet, word) || !is_sound_at(word)) continue;
+    if (word == quiet.present || is_in(quiet.undecided, word) || !is_sound_at(word)) continue;
     if (quiet.contains(word) == margin.hunts) margin.choices.push_back(word);
   }
 }
@@ -68,7 +64,7 @@ std::optional<double> first_border(const FeasibleValues& quiet, bool hunts) {
   const Bounds& first = quiet.intervals.front();
   if (hunts) return first.low > 0.0 ? std::optional(first.low) : std::nullopt;
   const bool is_border =
-      first.low == 0.0 && first.high < quiet.searched.high && !is_undecided(quiet, first.high);
+      first.low == 0.0 && first.high < quiet.searched.high && !is_in(quiet.undecided, first.high);
   return is_border ? std::optional(first.high) : std::nullopt;
 }
 
@@ -150,9 +146,10 @@ std::optional<CombinedMargin> combined_margin(const Drive& drive, const std::vec
     return result;
   };
   constexpr std::size_t count = 9;
-  const FeasibleValues quiet =
-      feasible_along([&](double length) { return changed(factors_along(direction, length)); },
-                     linear("length", 0.0, reach, count).values, always_at_rest(), progress);
+  FeasibleValues quiet{.searched = {0.0, reach},
+                       .grid = linear("length", 0.0, reach, count).values};
+  searched_values([&](double length) { return changed(factors_along(direction, length)); },
+                  always_at_rest(), wanted_for(always_at_rest(), drive), quiet, progress);
   if (quiet.stopped) return std::nullopt;
   const std::optional<double> length = first_border(quiet, hunts);
   constexpr double beyond = 2.0;  // times what counts as one length

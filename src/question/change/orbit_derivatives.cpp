@@ -13,6 +13,7 @@
 #include "model/sound_drive.hpp"
 #include "question/axis.hpp"
 #include "question/change/derivatives.hpp"
+#include "question/family/analysed_line.hpp"
 
 namespace gearlash {
 namespace {
@@ -51,13 +52,8 @@ std::string obstacle_to_slopes(const drive::SearchSetting& setting,
                                const drive::FoundCycle& cycle) {
   const drive::ReducedDrive& drive = setting.drive;
   if (drive.sampling) return "the controller's ticks hold its period to multiples of their own";
-  if (drive.sensing.resolution > 0.0 || drive.sensing.resolution_of_speed > 0.0) {
-    return "the encoder's steps have no derivative";
-  }
-  if (!is_mirrored(drive) && (std::holds_alternative<drive::Sine>(drive.reference) ||
-                              std::holds_alternative<drive::Sine>(drive.load_torque))) {
-    return "a sine drives it";
-  }
+  if (drive.sensing.reads_steps()) return "the encoder's steps have no derivative";
+  if (is_driven(drive)) return "a sine drives it";
   const std::vector<Event>& events = cycle.orbit.events;
   if (std::any_of(events.begin(), events.end(),
                   [](const Event& event) { return event.kind == EventKind::settling; })) {
@@ -79,11 +75,10 @@ const drive::FoundCycle* cycle_in_practice(const Analysis& analysis) {
   return &analysis.search->cycles[static_cast<std::size_t>(cycle - analysis.answer.cycles.data())];
 }
 
-/// The cycle of the drive with another value of a number, by Newton's method; none where the drive
-/// is unsound or the cycle has other events.
-Answer answer_beside(Drive drive, const Axis& axis, double value,
-                     const drive::SearchSetting& setting, const drive::FoundCycle& cycle) {
-  set_on(axis, drive, value);
+/// The cycle of a drive beside that of the setting, by Newton's method; none where the drive is
+/// unsound or the cycle has other events.
+Answer answer_beside(Drive drive, const drive::SearchSetting& setting,
+                     const drive::FoundCycle& cycle) {
   const std::optional<SoundDrive> sound = SoundDrive::of(std::move(drive));
   if (!sound) return {};
   const drive::SearchSetting beside = drive::search_setting(sound->settled());
@@ -106,17 +101,9 @@ Answer answer_beside(Drive drive, const Axis& axis, double value,
 Jacobian orbit_derivatives(const Drive& drive, const Analysis& analysis,
                            std::span<const Quantity> quantities,
                            const std::vector<std::string>& paths, Progress& progress) {
-  Jacobian jacobian{.quantities = {quantities.begin(), quantities.end()},
-                    .paths = paths,
-                    .values = {},
-                    .present = presents_of(drive, paths),
-                    .slopes = {},
-                    .reason = {}};
   const drive::FoundCycle* cycle = cycle_in_practice(analysis);
-  for (const Quantity quantity : quantities) {
-    jacobian.values.push_back(cycle == nullptr ? std::nullopt : analysis.answer.value(quantity));
-  }
-  jacobian.slopes.resize(quantities.size() * paths.size());
+  Jacobian jacobian = without_slopes(quantities, paths, presents_of(drive, paths),
+                                     cycle == nullptr ? Answer{} : analysis.answer);
   if (cycle == nullptr) {
     jacobian.reason = "no limit cycle was found";
     return jacobian;
@@ -129,8 +116,9 @@ Jacobian orbit_derivatives(const Drive& drive, const Analysis& analysis,
     const double present = jacobian.present[j];
     if (present == 0.0) continue;
     const Axis axis{.path = paths[j]};
+    const DriveAlong along = drives_along(axis, drive);
     set_slopes(jacobian, j,
-               [&](double value) { return answer_beside(drive, axis, value, setting, *cycle); },
+               [&](double value) { return answer_beside(along(value), setting, *cycle); },
                {.unit = std::abs(present), .first = 1.0 / 128, .halvings = 12});
   }
   return jacobian;

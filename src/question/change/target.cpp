@@ -16,11 +16,13 @@ Judgement judge(const Bounds& limits, const Bounds& bounds) {
   return Judgement::some;
 }
 
-bool asks_for_motion(const Target& target) {
-  return std::any_of(target.limits.begin(), target.limits.end(), [](const QuantityLimit& limit) {
-    return info_of(limit.quantity).scope == QuantityScope::motion;
+bool has_limits_of(const Target& target, QuantityScope scope) {
+  return std::any_of(target.limits.begin(), target.limits.end(), [&](const QuantityLimit& limit) {
+    return info_of(limit.quantity).scope == scope;
   });
 }
+
+bool asks_for_motion(const Target& target) { return has_limits_of(target, QuantityScope::motion); }
 
 /// Whether small disturbances do not die down.
 bool is_unstable(Verdict verdict) {
@@ -96,12 +98,6 @@ double excess_of(const Bounds& limits, const std::optional<double>& value,
   const double below =
       std::isinf(limits.low) || limits.low == 0.0 ? -infinity : beyond(limits.low, *value);
   return std::max(above, below);
-}
-
-bool asks_for_step(const Target& target) {
-  return std::any_of(target.limits.begin(), target.limits.end(), [](const QuantityLimit& limit) {
-    return info_of(limit.quantity).scope == QuantityScope::step;
-  });
 }
 
 /// Whether the response to a step is unknown, or was not followed to its end.
@@ -218,7 +214,7 @@ bool is_met(const Target& target, const Answer& answer) {
 
 bool is_known(const Target& target, const Answer& answer) {
   if (is_missed(target, answer)) return true;
-  if (asks_for_step(target) && is_cut_short(answer)) return false;
+  if (has_limits_of(target, QuantityScope::step) && is_cut_short(answer)) return false;
   switch (answer.verdict) {
     case Verdict::undecided:
       return !asks_for_rest(target) && !target.no_runaway && !asks_for_motion(target);

@@ -103,9 +103,7 @@ class Units {
   const Values& values(std::size_t unit) const { return all_[unit]; }
 
   Drive nominal(const Values& tuned) const {
-    Drive drive = task_.series.nominal;
-    for (std::size_t i = 0; i < tuned.size(); ++i) set_on(task_.tuned[i], drive, tuned[i]);
-    return drive;
+    return drive_with(task_.series.nominal, task_.tuned, tuned);
   }
 
   Drive drive(std::size_t unit, const Values& tuned) const {

@@ -14,6 +14,7 @@
 #include "question/change/derivatives.hpp"
 #include "question/change/orbit_derivatives.hpp"
 #include "question/change/target.hpp"
+#include "question/family/analysed_line.hpp"
 #include "question/family/family.hpp"
 #include "question/loop/linear_loop.hpp"
 
@@ -54,20 +55,12 @@ class UnitSlopes {
   }
 
  private:
-  Jacobian loop_jacobian(std::vector<Quantity> quantities) const {
-    const Answer here = with_loop(unit_);
-    Jacobian jacobian{.quantities = std::move(quantities), .paths = paths_, .present = values_};
-    for (const Quantity quantity : jacobian.quantities) {
-      jacobian.values.push_back(here.value(quantity));
-    }
-    jacobian.slopes.resize(jacobian.quantities.size() * paths_.size());
+  Jacobian loop_jacobian(const std::vector<Quantity>& quantities) const {
+    Jacobian jacobian = without_slopes(quantities, paths_, values_, with_loop(unit_));
     for (std::size_t axis = 0; axis < paths_.size(); ++axis) {
-      const auto loop_at = [&](double value) {
-        Drive drive = unit_;
-        set_on(task_.tuned[axis], drive, value);
-        return with_loop(drive);
-      };
-      set_slopes(jacobian, axis, loop_at, {.unit = std::abs(values_[axis])});
+      const DriveAlong along = drives_along(task_.tuned[axis], unit_);
+      set_slopes(jacobian, axis, [&](double value) { return with_loop(along(value)); },
+                 {.unit = std::abs(values_[axis])});
     }
     return jacobian;
   }
@@ -103,7 +96,7 @@ class UnitSlopes {
                                    {margin > 0.0 ? margin : -Target::infinity, Target::infinity}});
     std::vector<Quantity> quantities = {Quantity::bandwidth};
     for (const QuantityLimit& limit : limits) quantities.push_back(limit.quantity);
-    const Jacobian loop = loop_jacobian(std::move(quantities));
+    const Jacobian loop = loop_jacobian(quantities);
     const std::optional<double> bandwidth = loop.values[0];
     if (!bandwidth || !add(numbers_.sizes, -std::log(*bandwidth), -1.0 / *bandwidth, loop, 0)) {
       return false;
@@ -115,15 +108,16 @@ class UnitSlopes {
   }
 
   bool add_motion(Progress& progress) {
-    const bool asks_for_rest = task_.target.no_hunting || task_.target.no_hunting_if_disturbed;
     std::vector<QuantityLimit> limits;
     std::copy_if(task_.target.limits.begin(), task_.target.limits.end(), std::back_inserter(limits),
                  [](const QuantityLimit& limit) { return is_of_cycle(limit.quantity); });
-    if (asks_for_rest) limits.push_back({Quantity::growth_at_rest, {-Target::infinity, 1.0}});
+    if (asks_for_rest(task_.target)) {
+      limits.push_back({Quantity::growth_at_rest, {-Target::infinity, 1.0}});
+    }
     if (limits.empty()) return true;
     std::vector<Quantity> quantities;
     for (const QuantityLimit& limit : limits) quantities.push_back(limit.quantity);
-    const std::optional<Jacobian> jacobian = jacobian_of(quantities, asks_for_rest, progress);
+    const std::optional<Jacobian> jacobian = jacobian_of(quantities, progress);
     if (!jacobian) return false;
     for (std::size_t i = 0; i < limits.size(); ++i) {
       const Bounds& permitted = limits[i].permitted;
@@ -137,7 +131,7 @@ class UnitSlopes {
     return true;
   }
 
-  std::optional<Jacobian> jacobian_of(const std::vector<Quantity>& quantities, bool asks_for_rest,
+  std::optional<Jacobian> jacobian_of(const std::vector<Quantity>& quantities,
                                       Progress& progress) const {
     const EnginesNeeded engines = engines_of(unit_);
     if (!engines.search) {
@@ -145,7 +139,7 @@ class UnitSlopes {
       const std::vector<std::string_view> paths(paths_.begin(), paths_.end());
       return derivatives(unit_, quantities, paths);
     }
-    if (asks_for_rest) return std::nullopt;
+    if (asks_for_rest(task_.target)) return std::nullopt;
     const Analysis analysis =
         analyse_in_full(unit_, wanted_for(task_.target, task_.series.nominal), progress);
     const bool is_whole =
@@ -166,9 +160,8 @@ class UnitSlopes {
 
 bool may_have_slopes(const TuneTask& task) {
   const std::vector<QuantityLimit>& limits = task.target.limits;
-  const bool asks_for_rest = task.target.no_hunting || task.target.no_hunting_if_disturbed;
   return task.aim == Aim::bandwidth &&
-         (!asks_for_rest || !engines_of(task.series.nominal).search) &&
+         (!asks_for_rest(task.target) || !engines_of(task.series.nominal).search) &&
          !task.series.nominal.sampling &&
          std::all_of(limits.begin(), limits.end(), [](const QuantityLimit& limit) {
            return is_of_loop(limit.quantity) || is_of_cycle(limit.quantity);

@@ -61,6 +61,11 @@ JudgedValue JudgedLine::judged(double value, const AnalysedLine::Known& analysis
           .beyond_limits = excess({.limits = target_.limits}, answer)};
 }
 
+bool is_in(const std::vector<Bounds>& intervals, double value) {
+  return std::any_of(intervals.begin(), intervals.end(),
+                     [&](const Bounds& interval) { return interval.contains(value); });
+}
+
 void add(std::vector<Bounds>& intervals, const Bounds& more) {
   if (!intervals.empty() && intervals.back().high >= more.low) {
     intervals.back().high = more.high;

@@ -98,6 +98,9 @@ struct LastMet {
 };
 LastMet last_met(const Judge& judge, double met, double unmet, const Resolution& resolution);
 
+/// Whether one of the intervals contains the value.
+bool is_in(const std::vector<Bounds>& intervals, double value);
+
 /// Adds an interval to others that end before it, or touch it.
 void add(std::vector<Bounds>& intervals, const Bounds& more);
 

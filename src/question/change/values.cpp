@@ -255,13 +255,9 @@ void name_ends(const std::vector<Bounds>& before, FeasibleValues& found) {
   };
   std::erase_if(found.borders,
                 [&](const Border& border) { return !has_end(found.intervals, border.end); });
-  const auto is_open = [&](double end) {
-    return std::any_of(found.undecided.begin(), found.undecided.end(),
-                       [&](const Bounds& part) { return part.contains(end); });
-  };
   for (const Bounds& interval : found.intervals) {
     for (const double end : {interval.low, interval.high}) {
-      if (has_end(before, end) || is_open(end)) continue;
+      if (has_end(before, end) || is_in(found.undecided, end)) continue;
       found.borders.push_back({.end = end, .kind = BorderKind::limit, .at = end});
     }
   }
@@ -419,7 +415,8 @@ FeasibleValues values_of_number(const Drive& drive, const Axis& axis, const Targ
     closed.present = found.present;
     found = std::move(closed);
   } else {
-    at_closest = search_numbers(drive, axis, first, found, searching);
+    at_closest = searched_values(drives_along(axis, drive), first, wanted_for(first, drive), found,
+                                 searching);
   }
   if (!is_empty(others)) {
     at_closest.reset();
@@ -437,10 +434,7 @@ FeasibleValues values_of_number(const Drive& drive, const Axis& axis, const Targ
 
 }  // namespace
 
-bool FeasibleValues::contains(double value) const {
-  return std::any_of(intervals.begin(), intervals.end(),
-                     [&](const Bounds& interval) { return interval.contains(value); });
-}
+bool FeasibleValues::contains(double value) const { return is_in(intervals, value); }
 
 std::optional<double> FeasibleValues::nearest() const {
   std::optional<double> nearest;
@@ -523,7 +517,8 @@ FeasibleValues values(const Drive& drive, const Axis& axis, const Target& target
   std::sort(found.grid.begin(), found.grid.end());
   if (!parameter_of(axis, drive)->choices.empty()) {
     std::erase_if(found.grid, [&](double word) { return asks_for_more(axis, word, drive); });
-    at_closest = search_words(drive, axis, target, found, progress);
+    at_closest = searched_words(drives_along(axis, drive), target, wanted_for(target, drive), found,
+                                progress);
     return found;
   }
   cut_to_sound_drives(axis, drive, found);

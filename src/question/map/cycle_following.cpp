@@ -97,9 +97,7 @@ FollowedCycle CycleFollowing::known(double parameter, const drive::AttractorSear
 std::optional<FollowedCycle> CycleFollowing::step(const FollowedCycle& from,
                                                   double parameter) const {
   constexpr double alike = 0.25;
-  Drive there = drive_;
-  set_on(axis_, there, parameter);
-  const std::optional<SoundDrive> sound = SoundDrive::of(std::move(there));
+  const std::optional<SoundDrive> sound = SoundDrive::of(drive_(parameter));
   if (!sound) return std::nullopt;
   const drive::AttractorSearch found = drive::follow_cycles(sound->settled(), from.context);
   if (found.cycles.empty()) return std::nullopt;

@@ -25,7 +25,7 @@ struct FollowedWay {
 class CycleFollowing {
  public:
   CycleFollowing(const Drive& drive, const Axis& axis, Progress& progress)
-      : drive_(drive), axis_(axis), progress_(progress) {}
+      : drive_(drives_along(axis, drive)), axis_(axis), progress_(progress) {}
 
   FollowedCycle known(double parameter, const drive::AttractorSearch& search,
                       const drive::FoundCycle& cycle) const;
@@ -38,7 +38,7 @@ class CycleFollowing {
  private:
   std::optional<FollowedCycle> step(const FollowedCycle& from, double parameter) const;
 
-  const Drive& drive_;
+  DriveAlong drive_;
   const Axis& axis_;
   Progress& progress_;
 };

@@ -16,9 +16,7 @@ std::vector<Fault> faults_of_corners(const Grid& grid, bool are_axes_sound) {
   if (!are_axes_sound) return {};  // they cannot replace faulty values of the drive
   std::vector<Fault> found;
   for (const std::vector<double>& corner : corners_of(grid.axes)) {
-    Drive drive = grid.drive;
-    set_on(grid.axes, drive, corner);
-    found = faults(drive);
+    found = faults(drive_with(grid.drive, grid.axes, corner));
     if (found.empty()) break;
   }
   return found;
@@ -77,12 +75,7 @@ std::size_t Grid::size() const {
   return points;
 }
 
-Drive Grid::at(std::size_t index) const {
-  const std::vector<double> values = values_at(*this, index);
-  Drive point = drive;
-  set_on(axes, point, values);
-  return point;
-}
+Drive Grid::at(std::size_t index) const { return drive_with(drive, axes, values_at(*this, index)); }
 
 std::vector<Fault> faults(const Grid& grid, const std::vector<std::string>& fields) {
   RangeCheck check;

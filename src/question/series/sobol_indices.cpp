@@ -157,8 +157,7 @@ class Indices {
 SensitivityStudy study_of(const TolerancedDrive& drive, const SamplePlan& sampling,
                           const std::vector<ReplicateSums>& replicates, double usual_amplitude) {
   const std::size_t numbers = drive.varied.size();
-  SensitivityStudy study;
-  study.sampling = sampling;
+  SensitivityStudy study{.sampling = sampling};
   std::vector<const Sums*> sizes;
   std::vector<const Sums*> hunting;
   for (const ReplicateSums& replicate : replicates) {
@@ -186,11 +185,7 @@ SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const SampleP
   check.include(faults(drive)).include(faults(sampling)).include(faults(questions));
   require_none(check.faults());
   const std::size_t numbers = drive.varied.size();
-  if (numbers == 0) {
-    SensitivityStudy nothing;
-    nothing.sampling = sampling;
-    return nothing;
-  }
+  if (numbers == 0) return {.sampling = sampling};
   const detail::SampleValues values(drive, sampling, 2);
   const Target no_target;
   const detail::SampleAnswers answers(drive, no_target, questions.amplitude, workers);

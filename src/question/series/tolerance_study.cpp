@@ -65,8 +65,7 @@ ToleranceStudy counted(const SamplePlan& sampling, std::span<const SampleResult>
   std::vector<double> meeting(sampling.replicates);
   std::vector<double> finite(sampling.replicates);
   std::vector<double> sum_of_finite(sampling.replicates);
-  ToleranceStudy study;
-  study.sampling = sampling;
+  ToleranceStudy study{.sampling = sampling};
   for (std::size_t i = 0; i < results.size(); ++i) {
     const std::size_t replicate = i / sampling.points;
     const SampleResult& result = results[i];

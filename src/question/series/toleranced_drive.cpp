@@ -54,11 +54,7 @@ void add_place(const TolerancedDrive& drive, std::span<const double> values,
 
 bool is_number_of(const Drive& drive, std::string_view path) {
   const Parameter* parameter = find_parameter(path, drive);
-  if (parameter == nullptr) return false;
-  Drive copy = drive;  // a slot can be written to
-  const Slot slot = parameter->slot(copy);
-  return std::holds_alternative<double*>(slot) ||
-         std::holds_alternative<std::optional<double>*>(slot);
+  return parameter != nullptr && kind_of(*parameter, drive) == ParameterKind::number;
 }
 
 /// The numbers that the drive has, for a message.

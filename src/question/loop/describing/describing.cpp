@@ -186,8 +186,7 @@ std::vector<Assumption> omissions(const ReducedDrive& drive, DescribedPart part,
       Assumption::falling_friction_left_out);
   add(drive.sampling.has_value(), Assumption::sampling_as_delay);
   add(delay_is_rational, Assumption::delay_as_rational);
-  add(drive.sensing.resolution > 0.0 || drive.sensing.resolution_of_speed > 0.0,
-      Assumption::encoder_left_out);
+  add(drive.sensing.reads_steps(), Assumption::encoder_left_out);
   add(!is_always_0(drive.reference) || !is_always_0(drive.load_torque),
       Assumption::signals_left_out);
   return found;

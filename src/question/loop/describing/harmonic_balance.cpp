@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/bracketed_root.hpp"
+#include "base/extent.hpp"
 
 namespace gearlash {
 namespace {
@@ -302,21 +303,17 @@ HarmonicBalance harmonic_balance(const Nonlinearity& nonlinearity, const Transfe
 Bounds natural_frequency_range(const TransferFunction& loop) {
   constexpr double beyond = 1e6;
   const FactoredTransferFunction factors = factored(loop);
-  Bounds scale{std::numeric_limits<double>::infinity(), 0.0};
-  const auto include = [&](double frequency) {
-    scale.low = std::min(scale.low, frequency);
-    scale.high = std::max(scale.high, frequency);
-  };
+  Extent scale;
   for (const auto* roots : {&factors.zeros, &factors.poles}) {
     for (const Complex& root : *roots) {
-      if (root != 0.0) include(std::abs(root));
+      if (root != 0.0) scale.include(std::abs(root));
     }
   }
-  if (loop.delay > 0.0) include(1.0 / loop.delay);
-  if (scale.high == 0.0) {
+  if (loop.delay > 0.0) scale.include(1.0 / loop.delay);
+  if (scale.high < 0.0) {
     const double order =
         static_cast<double>(factors.poles.size()) - static_cast<double>(factors.zeros.size());
-    include(order == 0.0 ? 1.0 : std::pow(std::abs(factors.gain), 1.0 / order));
+    scale.include(order == 0.0 ? 1.0 : std::pow(std::abs(factors.gain), 1.0 / order));
   }
   const double high = beyond * scale.high;
   return {scale.low / beyond, loop.delay > 0.0 ? std::min(high, 100.0 * turn / loop.delay) : high};

@@ -225,9 +225,6 @@ class Equilibria {
       pieces_.push_back({kind, side, load_, motor_});
       return;
     }
-    const auto widen = [](Bounds& bounds, const Extent& by) {
-      bounds = {std::min(bounds.low, by.low), std::max(bounds.high, by.high)};
-    };
     widen(piece->load, load_);
     widen(piece->motor, motor_);
   }
