@@ -3,6 +3,7 @@
 
 #include "arrays.hpp"
 #include "base/fault.hpp"
+#include "base/lists.hpp"
 #include "define.hpp"
 #include "gearlash/grid.hpp"
 #include "gearlash/version.hpp"
@@ -127,12 +128,11 @@ void add_grids(py::module_& module) {
   module.def("read_axis", [](const std::string& path, const std::string& values, py::handle drive) {
     return to_python(read_axis({path, path, values}, drive_of(drive)));
   });
-  module.def("drive_of_axes",
-             [](py::handle drive, const std::vector<std::pair<std::string, std::string>>& axes) {
-               std::vector<AxisText> texts;
-               for (const auto& [path, values] : axes) texts.push_back({path, path, values});
-               return drive_to_python(drive_of_axes(drive_of(drive), texts));
-             });
+  module.def("drive_of_axes", [](py::handle drive,
+                                 const std::vector<std::pair<std::string, std::string>>& axes) {
+    const auto text_of = [](const auto& one) { return AxisText{one.first, one.first, one.second}; };
+    return drive_to_python(drive_of_axes(drive_of(drive), of_each(axes, text_of)));
+  });
 }
 
 }  // namespace gearlash::python
