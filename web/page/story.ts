@@ -1,5 +1,5 @@
 // The guided story: seven steps, each with one control and one sentence.
-import { addButton, byId, markCurrent } from './elements';
+import { addButton, byId, made, markCurrent } from './elements';
 import { type Changed, Inputs, only } from './inputs';
 import type { DriveText, Fault, Parameter } from './replies';
 
@@ -80,7 +80,7 @@ export class Story {
     const list = byId('story-steps');
     list.textContent = '';
     this.steps.forEach(({ title }, i) => {
-      const item = document.createElement('li');
+      const item = made('li');
       addButton(item, `${i + 1}. ${title}`, () => this.goTo(i + 1));
       list.append(item);
     });
