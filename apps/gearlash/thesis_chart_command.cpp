@@ -150,9 +150,7 @@ ExitStatus read_charts(const ServoOptions& typed, const Provenance&) {
   return ExitStatus::done;
 }
 
-struct ExtensionOptions {
-  std::string number;
-  std::string output;
+struct ExtensionOptions : FigureOptions {
   LimitOptions limits;
 };
 
