@@ -1,6 +1,7 @@
 // gearlash chart: a family of curves over any parameters of the drive.
 #include <fmt/format.h>
 
+#include "base/lists.hpp"
 #include "grid_options.hpp"
 #include "picture/bifurcation_picture.hpp"
 #include "picture/grid_chart.hpp"
@@ -32,18 +33,17 @@ void require_branches(const GridTask& task) {
   Faults faults;
   const Axis& x = task.grid.axes.back();
   if (task.grid.axes.size() > 1) {
-    faults.add({"--curves", "given", "must be left out: bifurcation=FILE has branches", ""});
+    faults.add("--curves", "given", "must be left out: bifurcation=FILE has branches");
   }
   const bool is_number = parameter_of(x, task.grid.drive)->choices.empty();
   if (!is_number || x.values.size() < 2 || x.values.size() > most_values_of_branches) {
-    faults.add({"--x", is_number ? std::to_string(x.values.size()) + " values" : "words",
-                "must have 2 to 1000 numbers for bifurcation=FILE", ""});
+    faults.add("--x", is_number ? std::to_string(x.values.size()) + " values" : "words",
+               "must have 2 to 1000 numbers for bifurcation=FILE");
   }
   if (!has_branches(task.quantity)) {
-    faults.add({"--quantity", std::string(name_of(task.quantity)),
-                "must be amplitude, motor_amplitude, period, frequency or multiplier for "
-                "bifurcation=FILE",
-                ""});
+    faults.add("--quantity", std::string(name_of(task.quantity)),
+               "must be amplitude, motor_amplitude, period, frequency or multiplier for "
+               "bifurcation=FILE");
   }
   faults.require_none();
 }
@@ -59,10 +59,8 @@ ExitStatus draw_branches(const GridTask& task, const std::vector<PlotFile>& plot
     extras.make(
         [&] { write_plot(plot, bifurcation_plot(diagram, task.grid, task.quantity, task.angle)); });
   }
-  std::string made;
-  for (const PlotFile& plot : plots) made += (made.empty() ? "" : ", ") + plot.file;
-  extras.print(fmt::format("{}: {} branches, {} borders\n", made, diagram.branches.size(),
-                           diagram.borders.size()));
+  extras.print(fmt::format("{}: {} branches, {} borders\n", listed(plots, &PlotFile::file),
+                           diagram.branches.size(), diagram.borders.size()));
   return extras.status(diagram.is_complete ? ExitStatus::done : ExitStatus::undecided);
 }
 

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "base/lists.hpp"
 #include "input/section_reader.hpp"
 #include "input/units.hpp"
 #include "output/columns.hpp"
@@ -34,7 +35,7 @@ void require_known_subcommand(const CLI::App& app, const std::string& typed,
   if (names.empty()) return;
   const std::string first = words.empty() ? "" : words.front();
   if (first.starts_with("-")) return;  // an option, which CLI11 checks
-  if (std::find(names.begin(), names.end(), first) == names.end()) {
+  if (!contains(names, first)) {
     throw InvalidInput(
         {{"subcommand", first.empty() ? "" : shown(first),
           "must be " + alternatives(names) + guess_of(names, first) + "; see " + typed + " --help",

@@ -3,10 +3,12 @@
 #include <filesystem>
 #include <set>
 
+#include "base/lists.hpp"
 #include "grid_options.hpp"
+#include "input/target_text.hpp"
 #include "input/units.hpp"
 #include "output/comparison_report.hpp"
-#include "picture/comparison_picture.hpp"
+#include "picture/report_pictures.hpp"
 #include "question/analyse.hpp"
 #include "verb.hpp"
 
@@ -40,22 +42,19 @@ struct CompareTask {
 
 std::vector<Quantity> read_quantities(const std::vector<std::string>& names, Faults& faults) {
   std::vector<Quantity> chosen;
-  std::vector<std::string> known;
-  for (const QuantityInfo& info : quantities()) known.emplace_back(info.name);
+  const std::vector<std::string> known = names_of_quantities();
   for (const std::string& name : names) {
     const std::optional<Quantity> quantity = find_quantity(name);
     if (!quantity) faults.require_choice("--quantities", name, known);
-    if (quantity && std::find(chosen.begin(), chosen.end(), *quantity) == chosen.end()) {
-      chosen.push_back(*quantity);
-    }
+    if (quantity && !contains(chosen, *quantity)) chosen.push_back(*quantity);
   }
   return chosen;
 }
 
 /// The files' stems, or where two are the same the files as typed.
 std::vector<std::string> names_of(const std::vector<std::string>& files) {
-  std::vector<std::string> stems;
-  for (const std::string& file : files) stems.push_back(std::filesystem::path(file).stem());
+  const std::vector<std::string> stems = of_each<std::string>(
+      files, [](const std::string& file) { return std::filesystem::path(file).stem(); });
   const bool are_distinct = std::set(stems.begin(), stems.end()).size() == stems.size();
   return are_distinct ? stems : files;
 }
@@ -63,10 +62,10 @@ std::vector<std::string> names_of(const std::vector<std::string>& files) {
 void read_files(const CompareOptions& options, const std::vector<FileUse>& outputs,
                 CompareTask& task, Faults& faults) {
   if (!options.x.empty()) {
-    faults.add({"--x", shown(options.x), "must be left out: several files are compared", ""});
+    faults.add("--x", shown(options.x), "must be left out: several files are compared");
   }
   if (std::count(options.files.begin(), options.files.end(), "-") > 1) {
-    faults.add({"DRIVE.toml", "-", "must be given once: standard input is one drive", ""});
+    faults.add("DRIVE.toml", "-", "must be given once: standard input is one drive");
     return;
   }
   const std::vector<std::string> names = names_of(options.files);
@@ -98,10 +97,9 @@ void read_values(const CompareOptions& options, const std::vector<FileUse>& outp
   const Drive drive = drive_of_axes(written->drive, texts);
   Axis axis = collect_axis([&](auto* out) { return read_axis(text, drive, out); }, faults);
   if (axis.values.size() > most_compared_drives) {
-    faults.add({text.field, std::to_string(axis.values.size()) + " values",
-                "must be at most " + std::to_string(most_compared_drives) +
-                    "; gearlash chart has room for more",
-                ""});
+    faults.add(text.field, std::to_string(axis.values.size()) + " values",
+               "must be at most " + std::to_string(most_compared_drives) +
+                   "; gearlash chart has room for more");
   }
   faults.require_none();
   task.drives = drives_along(axis, drive, written->angle);
@@ -110,7 +108,7 @@ void read_values(const CompareOptions& options, const std::vector<FileUse>& outp
 }
 
 double read_step(const std::string& text) {
-  const double step = read_angle("--step", text).si;
+  const double step = read_measured("--step", text, dimensions::angle).si;
   if (step == 0.0) refuse("--step", text, "must be an angle other than 0");
   return step;
 }
@@ -152,9 +150,9 @@ ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
   task.report.drives =
       compare(task.drives, task.how,
               TerminalProgress(work, "Comparing", task.drives.size(), "drives").as_argument());
-  const bool decided =
-      std::all_of(task.report.drives.begin(), task.report.drives.end(),
-                  [](const ComparedDrive& one) { return one.answer && is_decided(*one.answer); });
+  const bool decided = all_of(task.report.drives, [](const ComparedDrive& one) {
+    return one.answer && is_decided(*one.answer);
+  });
   return give({.text = printed(task.report, options),
                .is_decided = decided,
                .unknown = "searches are not complete, or not begun"},

@@ -1,4 +1,5 @@
 // gearlash describe: what describing functions predict, beside the exact cycle.
+#include "base/lists.hpp"
 #include "gearlash/analyse.hpp"
 #include "input/units.hpp"
 #include "output/describe_report.hpp"
@@ -40,9 +41,8 @@ constexpr DrawnPart drawn_parts[] = {
 
 void check_part(const DescribeOptions& options, Faults& faults) {
   if (options.part.empty()) return;
-  std::vector<std::string> words;
-  for (const DrawnPart& drawn : drawn_parts) words.emplace_back(drawn.word);
-  faults.require_choice("--part", options.part, words);
+  faults.require_choice("--part", options.part,
+                        of_each<std::string>(drawn_parts, &DrawnPart::word));
   if (options.plots.empty()) {
     faults.add(
         {"--part", shown(options.part), "must come with --plot: it chooses what to draw", ""});
@@ -64,12 +64,11 @@ std::optional<DrawnPart> part_to_draw(const DescribeReport& report,
 
 Plot plot_of(const DescribeReport& report, const DescribeOptions& options) {
   const std::optional<DrawnPart> drawn = part_to_draw(report, options);
+  if (!drawn && options.part.empty()) {
+    refuse("--plot", "nyquist", "must be left out: this drive feeds nothing back");
+  }
   if (!drawn) {
-    throw InvalidInput(
-        {options.part.empty()
-             ? Fault{"--plot", "nyquist", "must be left out: this drive feeds nothing back", ""}
-             : Fault{"--part", shown(options.part),
-                     "must be a part that the drive has inside its loop", ""}});
+    refuse("--part", options.part, "must be a part that the drive has inside its loop");
   }
   return nyquist_plot({.title = drawn->title,
                        .analyses = loop_analyses(report.analyses, drawn->part),

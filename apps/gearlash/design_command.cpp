@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/lists.hpp"
 #include "grid_options.hpp"
 #include "input/axis_text.hpp"
 #include "output/design_report.hpp"
@@ -115,8 +116,8 @@ void check_options(const DesignOptions& options, Faults& faults) {
                    : Fault{"--vary", "", "must name the two parameters of the picture", ""});
   }
   if (!options.vary.empty() && !are_two(options.vary)) {
-    faults.add({"--vary", std::to_string(options.vary.size()) + " names",
-                "must be two different parameters, separated by a comma", ""});
+    faults.add("--vary", std::to_string(options.vary.size()) + " names",
+               "must be two different parameters, separated by a comma");
   }
 }
 
@@ -145,9 +146,8 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
                       .angle = written->angle,
                       .provenance = provenance};
   report.design = design(drive, axes, target, TerminalProgress(work, "Design").as_argument());
-  const auto known = static_cast<std::size_t>(
-      std::count_if(report.design.parameters.begin(), report.design.parameters.end(),
-                    [](const DesignedParameter& one) { return !one.values.stopped; }));
+  const std::size_t known = count_of(
+      report.design.parameters, [](const DesignedParameter& one) { return !one.values.stopped; });
   std::optional<GridTable> table;
   return give({.text = options.format == "json" ? design_json(report) : design_text(report),
                .unknown = unknown_text(known, axes.size())},

@@ -1,8 +1,8 @@
 // gearlash explore: the drive in a page of its own, which any browser opens without a network.
-#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "base/lists.hpp"
 #include "input/section_reader.hpp"
 #include "input/text_file.hpp"
 #include "input/utf8.hpp"
@@ -78,7 +78,7 @@ Tables take_tables(Drive& drive, const std::string& file) {
 /// Whether options other than --set change what the file has.
 bool has_number_options(const ServoOptions& options) {
   const auto is_typed = [](const auto& number) { return number.has_value(); };
-  return options.sensor || std::any_of(options.numbers.begin(), options.numbers.end(), is_typed);
+  return options.sensor || any_of(options.numbers, is_typed);
 }
 
 /// The author's own text with the settings, so that the page shows both.
@@ -105,7 +105,7 @@ nlohmann::ordered_json drive_of_page(const ServoOptions& options, WrittenDrive w
 ExitStatus run(const ExploreOptions& options, const Provenance&) {
   Faults faults;
   if (fs::path(options.output).extension() != ".html" && options.output != "-") {
-    faults.add({"--output", shown(options.output), "must end in .html", ""});
+    faults.add("--output", shown(options.output), "must end in .html");
   }
   const std::optional<WrittenDrive> written =
       resolve_drive(options.servo, {{"--output", options.output}}, faults);

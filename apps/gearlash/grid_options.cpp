@@ -2,14 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <deque>
-#include <filesystem>
 
+#include "base/lists.hpp"
 #include "base/progress_part.hpp"
 #include "base/range_check.hpp"
+#include "input/target_text.hpp"
 #include "picture/grid_map.hpp"
 #include "question/family/evaluation.hpp"
 #include "question/map/grid_pieces.hpp"
@@ -54,15 +52,15 @@ void refuse_given(const ServoOptions& options, const AxisText& axis, const std::
   const std::size_t number = number_with(path);
   const bool is_number = number < options.numbers.size();
   if (is_number && options.numbers[number]) {
-    faults.add({option_name(normal_form_numbers[number].name), shown(*options.numbers[number]),
-                permitted, ""});
+    faults.add(option_name(normal_form_numbers[number].name), shown(*options.numbers[number]),
+               permitted);
   }
   if (path == "sensor.position" && options.sensor) {
-    faults.add({"--sensor", shown(*options.sensor), permitted, ""});
+    faults.add("--sensor", shown(*options.sensor), permitted);
   }
   for (const std::string& setting : options.settings) {
     if (setting.substr(0, setting.find('=')) != path) continue;
-    faults.add({"--set", shown(setting), permitted, ""});
+    faults.add("--set", shown(setting), permitted);
   }
 }
 
@@ -89,28 +87,21 @@ std::optional<WrittenDrive> read_fixed_drive(const ServoOptions& options,
 
 namespace {
 
-/// The extension in lower case.
-std::string ending_of(const std::string& file) {
-  std::string ending = std::filesystem::path(file).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending;
-}
-
 /// Reads --plot, and --output by its extension.
 void read_outputs(const GridOptions& options, const std::vector<std::string>& kinds, GridTask& task,
                   Faults& faults) {
   const std::string& kind = kinds.front();
   task.plots = read_plots(options.plots, kinds, faults);
   const std::string ending = ending_of(options.output);
-  if (ending == ".svg" || ending == ".png" || ending == ".pdf") {
+  if (contains(picture_endings, ending)) {
     task.plots.push_back({kind, options.output, picture_format("--output", options.output)});
   } else if (ending == ".csv" || ending == ".json" || ending == ".nc") {
     task.table_file = options.output;
   } else if (!options.output.empty()) {
-    faults.add({"--output", shown(options.output),
-                "must end in .svg, .png, .pdf, .csv, .json or .nc", ""});
+    faults.add("--output", shown(options.output),
+               "must end in .svg, .png, .pdf, .csv, .json or .nc");
   } else if (options.plots.empty()) {
-    faults.add({"--output", "", "must be given, or --plot " + kind + "=FILE", ""});
+    faults.add("--output", "", "must be given, or --plot " + kind + "=FILE");
   }
 }
 
@@ -125,10 +116,9 @@ void read_map_target(const GridOptions& options, bool is_known, GridTask& task, 
 
 void require_room(const Grid& grid) {
   if (grid.size() <= most_points) return;
-  throw InvalidInput({{"points", std::to_string(grid.size()),
-                       "must be at most " + std::to_string(most_points) +
-                           " on both axes together; gearlash sweep has room for more",
-                       ""}});
+  refuse("points", std::to_string(grid.size()),
+         "must be at most " + std::to_string(most_points) +
+             " on both axes together; gearlash sweep has room for more");
 }
 
 /// All quantities for a table; only the needed ones for pictures alone.
@@ -143,7 +133,7 @@ std::vector<Quantity> quantities_of(const GridTask& task) {
   }
   const auto known = quantities_known(engines);
   std::vector<Quantity> all(known.begin(), known.end());
-  if (std::find(all.begin(), all.end(), task.quantity) == all.end()) all.push_back(task.quantity);
+  if (!contains(all, task.quantity)) all.push_back(task.quantity);
   return all;
 }
 
@@ -178,19 +168,15 @@ void add_grid_options(const Command& command, GridOptions& options, const std::s
 Quantity read_quantity(const std::string& text, Faults& faults) {
   const std::optional<Quantity> quantity = find_quantity(text);
   if (quantity && info_of(*quantity).kind == QuantityKind::number) return *quantity;
-  std::vector<std::string> names;
-  for (const QuantityInfo& info : quantities()) {
-    if (info.kind == QuantityKind::number) names.emplace_back(info.name);
-  }
-  faults.require_choice("--quantity", text, names);
+  faults.require_choice("--quantity", text, names_of_quantities(QuantityKind::number));
   return Quantity::amplitude;
 }
 
 void require_an_area(const Grid& grid, const std::vector<std::string>& fields, Faults& faults) {
   for (std::size_t i = 0; i < grid.axes.size(); ++i) {
     if (grid.axes[i].values.size() > 1) continue;
-    faults.add({fields[i], "1 value",
-                "must have two values or more; gearlash chart draws a single line", ""});
+    faults.add(fields[i], "1 value",
+               "must have two values or more; gearlash chart draws a single line");
   }
 }
 
@@ -204,9 +190,8 @@ void require_drawable(const Grid& grid, const std::vector<std::string>& fields, 
     const double first = values.front();
     const double last = values.back();
     const auto refuse = [&](const std::string& value, const std::string& permitted) {
-      faults.add({field, value,
-                  "must " + permitted + " in a picture; tables (.csv, .json, .nc) may have it",
-                  ""});
+      faults.add(field, value,
+                 "must " + permitted + " in a picture; tables (.csv, .json, .nc) may have it");
     };
     const bool is_number = !unit_of(grid.axes[i], grid.drive).empty();
     if (!std::isfinite(last)) {
@@ -250,8 +235,7 @@ GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption
   if (is_known) task.grid.axes = collect_axes(texts, read_one, faults);
   read_map_target(options, written.has_value(), task, faults);
   const bool are_read = task.grid.axes.size() == typed_axes.size();
-  std::vector<std::string> fields;
-  for (const AxisText& text : texts) fields.push_back(text.field);
+  const std::vector<std::string> fields = of_each(texts, &AxisText::field);
   if (!task.plots.empty() && are_read) require_drawable(task.grid, fields, faults);
   faults.require_none();
   require_none(gearlash::faults(task.grid, fields));
@@ -317,18 +301,11 @@ WorkedOut work_out(const GridTask& task, LimitedWork& work, const Provenance& pr
 
 ExitStatus make_grid_files(const GridTask& task, LimitedWork& work, const Provenance& provenance,
                            GridPlot plot) {
-  // Opened before the work, so that they are known to be writable.
   std::optional<OutputFile> output;
   if (!task.table_file.empty()) output.emplace(task.table_file);
-  std::deque<OutputFile> pictures;
-  for (const PlotFile& file : task.plots) pictures.emplace_back(file.file);
   WorkedOut done;
   Extras extras;
-  std::string made;
-  const auto commit = [&](OutputFile& file) {
-    file.commit();
-    made += (made.empty() ? "" : ", ") + file.shown_name();
-  };
+  std::vector<std::string> made;
   const bool is_streamed =
       task.plots.empty() && !task.target && ending_of(task.table_file) == ".nc";
   if (is_streamed) {
@@ -347,16 +324,17 @@ ExitStatus make_grid_files(const GridTask& task, LimitedWork& work, const Proven
   if (output) {
     extras.make([&] {
       if (!is_streamed) write_table(task, table, count, *output);
-      commit(*output);
+      output->commit();
+      made.push_back(output->shown_name());
     });
   }
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
+  for (const PlotFile& file : task.plots) {
     extras.make([&] {
-      pictures[i].write(draw(plot(table, task.quantity), task.plots[i].format));
-      commit(pictures[i]);
+      write_plot(file, plot(table, task.quantity));
+      made.push_back(shown(file.file, std::string::npos));
     });
   }
-  extras.print((made.empty() ? "" : made + ": ") + solved_text(count) + "\n");
+  extras.print((made.empty() ? "" : listed(made) + ": ") + solved_text(count) + "\n");
   return extras.status(status);
 }
 

@@ -13,14 +13,11 @@
 namespace gearlash::cli {
 
 /// As typed.
-struct GridOptions {
-  ServoOptions servo;
+struct GridOptions : QuestionOptions {
   std::string quantity = "amplitude";
   std::string target;  ///< of a map; empty: none
   std::string output;
-  std::vector<std::string> plots;
   bool proved = false;
-  LimitOptions limits;
 };
 
 /// An axis as typed after its option, "--x".

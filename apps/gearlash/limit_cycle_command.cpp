@@ -5,8 +5,8 @@
 #include "input/axis_text.hpp"
 #include "input/units.hpp"
 #include "output/answer_report.hpp"
-#include "picture/answer_bars.hpp"
 #include "picture/answer_picture.hpp"
+#include "picture/report_pictures.hpp"
 #include "question/analyse.hpp"
 #include "question/change/derivatives.hpp"
 #include "question/change/margins.hpp"
@@ -47,10 +47,8 @@ struct Result {
 Plot tornado_of(const Result& result) {
   if (std::optional<Plot> plot = tornado_plot(*result.report.sensitivity)) return *plot;
   const std::string& why = result.report.sensitivity->reason;
-  throw InvalidInput(
-      {{"--plot", "tornado",
-        "must be left out: this drive has no sensitivities" + (why.empty() ? why : "; " + why),
-        ""}});
+  refuse("--plot", "tornado",
+         "must be left out: this drive has no sensitivities" + (why.empty() ? why : "; " + why));
 }
 
 Plot ceiling_of(const Result& result) {
@@ -58,7 +56,7 @@ Plot ceiling_of(const Result& result) {
   if (ceiling.terms.empty()) {
     const std::string why =
         ceiling.load ? "this drive has no gap, dry friction or encoder" : ceiling.reason;
-    throw InvalidInput({{"--plot", "ceiling", "must be left out: " + why, ""}});
+    refuse("--plot", "ceiling", "must be left out: " + why);
   }
   return ceiling_plot(result.report);
 }
@@ -77,28 +75,17 @@ std::vector<Axis> read_parameters(const LimitCycleOptions& options, const Drive&
   std::vector<Axis> axes =
       collect_axes("--parameters", options.parameters, drive, read_axis_to_search, faults);
   if (!options.parameters.empty() && !options.margins) {
-    faults.add({"--parameters", options.parameters.front(), "must come with --margins", ""});
+    faults.add("--parameters", options.parameters.front(), "must come with --margins");
   }
   return axes;
 }
 
-/// What is asked for beside the answer.
-struct Changes {
-  bool margins = false;
-  std::vector<Axis> axes{};  ///< of the margins
-  bool sensitivities = false;
-};
-
-/// Adds margins and sensitivities.
-void add_changes(Result& result, const Drive& drive, const Changes& wanted, LimitedWork& work) {
-  if (wanted.margins && has_margins(result.analysis)) {
-    TerminalProgress progress(work, "Margins");
-    result.report.margin =
-        wanted.axes.empty() ? margins(drive, progress) : margins(drive, wanted.axes, progress);
-  }
-  if (!wanted.sensitivities) return;
-  result.report.sensitivity =
-      sensitivities(drive, result.analysis, TerminalProgress(work, "Sensitivities").as_argument());
+/// Of the drive along these axes; none: the usual ones.
+void add_margins(Result& result, const Drive& drive, const std::vector<Axis>& axes,
+                 LimitedWork& work) {
+  if (!has_margins(result.analysis)) return;
+  TerminalProgress progress(work, "Margins");
+  result.report.margin = axes.empty() ? margins(drive, progress) : margins(drive, axes, progress);
 }
 
 /// `specification`: rad, or 0.
@@ -114,23 +101,25 @@ Result analysed(const WrittenDrive& written, double specification, const Provena
   return result;
 }
 
-double read_specification(const std::string& text) {
+std::optional<double> read_specification(const std::string& text) {
+  if (text.empty()) return std::nullopt;
   constexpr char field[] = "--specification";
-  const double amplitude = read_angle(field, text).si;
+  const double amplitude = read_measured(field, text, dimensions::angle).si;
   if (!(amplitude > 0.0)) {
-    throw InvalidInput({{field, text, "must be above 0: an amplitude of the load", "rad"}});
+    refuse(field, text, "must be above 0: an amplitude of the load");
   }
   return amplitude;
 }
 
 /// "0.2 rad, 0.9 Hz", or with a period: "0.2 rad, 1.1 s".
-MeasuredHunting read_measured(const std::string& text) {
+std::optional<MeasuredHunting> read_hunting(const std::string& text) {
+  if (text.empty()) return std::nullopt;
   constexpr char field[] = "--measured";
   const std::vector<std::string_view> parts = split(text, ",");
   if (parts.size() != 2) {
     refuse(field, text, "must be an amplitude and a frequency or a period: \"0.2 rad, 0.9 Hz\"");
   }
-  MeasuredHunting measured{.amplitude = read_angle(field, parts[0]).si};
+  MeasuredHunting measured{.amplitude = read_measured(field, parts[0], dimensions::angle).si};
   try {
     measured.frequency = 1.0 / to_si(field, parts[1], dimensions::time);
   } catch (const InvalidInput&) {
@@ -156,26 +145,23 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
       read_plots(options.plots, {"phase", "time", "tornado", "ceiling"}, faults);
   const std::optional<WrittenDrive> written = resolve_drive(options.servo, files_of(plots), faults);
   const Limits limits = read_limits(options.limits, faults);
-  std::optional<double> specification;
-  if (!options.specification.empty()) {
-    specification = faults.collect([&] { return read_specification(options.specification); },
-                                   std::optional<double>());
-  }
-  std::optional<MeasuredHunting> measured;
-  if (!options.measured.empty()) {
-    measured = faults.collect([&] { return read_measured(options.measured); },
-                              std::optional<MeasuredHunting>());
-  }
-  Changes changes{.margins = options.margins,
-                  .sensitivities = options.sensitivities || has_kind(plots, "tornado")};
-  if (written) changes.axes = read_parameters(options, written->drive, faults);
+  const auto specification = faults.collect(
+      [&] { return read_specification(options.specification); }, std::optional<double>());
+  const auto measured = faults.collect([&] { return read_hunting(options.measured); },
+                                       std::optional<MeasuredHunting>());
+  std::vector<Axis> axes;
+  if (written) axes = read_parameters(options, written->drive, faults);
   faults.require_none();
 
   LimitedWork work(limits);
   Result result = analysed(*written, specification.value_or(0.0), provenance, work);
   result.report.specification = specification;
   result.report.measured = measured;
-  if (changes.margins || changes.sensitivities) add_changes(result, written->drive, changes, work);
+  if (options.margins) add_margins(result, written->drive, axes, work);
+  if (options.sensitivities || has_kind(plots, "tornado")) {
+    result.report.sensitivity = sensitivities(
+        written->drive, result.analysis, TerminalProgress(work, "Sensitivities").as_argument());
+  }
   const bool decided = is_decided(result.report.answer);
   const std::string open = decided ? "" : headline(result.report);
   return give({.text = printed(result, options),

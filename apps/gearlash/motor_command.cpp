@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <stdexcept>
 
+#include "base/lists.hpp"
 #include "base/special_numbers.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
@@ -209,9 +209,8 @@ void add_limit_cycle(Steps& steps, const Drive& drive) {
   charted.gearbox.backlash = chart_backlash;
   const Answer answer = analyse(charted, {.proofs = false});
   const NormalFormNumbers servo = answer.normal_form.value();
-  const auto cycle =
-      std::find_if(answer.cycles.begin(), answer.cycles.end(),
-                   [](const Cycle& candidate) { return candidate.stability == Stability::stable; });
+  const Cycle* cycle =
+      first_of(answer.cycles, [](const Cycle& one) { return one.stability == Stability::stable; });
   steps.add("Limit cycle for a backlash of 0.3 rad, which the thesis reads from a chart",
             fmt::format("enter with ζ = {}, J_L/J_M = {}, F_L/F_Total = {}", number(servo.damping),
                         number(servo.inertia_ratio), number(servo.friction_ratio)));
@@ -219,7 +218,7 @@ void add_limit_cycle(Steps& steps, const Drive& drive) {
     steps.more(fmt::format("(the charts are for restitution 0; this gear has {})",
                            number(servo.restitution)));
   }
-  if (cycle == answer.cycles.end()) {
+  if (cycle == nullptr) {
     steps.more(fmt::format("no limit cycle: {}, growth at rest {}", name_of(answer.verdict),
                            number(answer.growth_at_rest.value_or(not_a_number))));
     return;

@@ -1,10 +1,10 @@
 #include "servo_options.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <utility>
 
+#include "base/lists.hpp"
 #include "gearlash/parameter.hpp"
 #include "input/section_reader.hpp"
 #include "input/target_text.hpp"
@@ -150,26 +150,23 @@ void add_servo_or_drive_options(const Command& command, ServoOptions& options) {
 }
 
 void Faults::add(Fault fault) {
-  if (std::find(faults_.begin(), faults_.end(), fault) == faults_.end()) {
-    faults_.push_back(std::move(fault));
-  }
+  if (!contains(faults_, fault)) faults_.push_back(std::move(fault));
 }
 
 void Faults::require_choice(const std::string& field, const std::string& value,
                             const std::vector<std::string>& choices) {
-  if (std::find(choices.begin(), choices.end(), value) != choices.end()) return;
-  add({field, shown(value), "must be " + alternatives(choices), ""});
+  if (contains(choices, value)) return;
+  add(field, shown(value), "must be " + alternatives(choices));
 }
 
 void Faults::require_distinct(std::vector<FileUse> others, const std::vector<FileUse>& outputs) {
   for (const FileUse& output : outputs) {
     if (!may_be_lost(output.file)) continue;
-    const auto same = std::find_if(others.begin(), others.end(), [&](const FileUse& other) {
-      return is_same_file(output.file, other.file);
-    });
-    if (same != others.end()) {
-      add({output.use, shown(output.file),
-           "must not be the file of " + same->use + ", " + shown(same->file), ""});
+    const FileUse* same = first_of(
+        others, [&](const FileUse& other) { return is_same_file(output.file, other.file); });
+    if (same != nullptr) {
+      add(output.use, shown(output.file),
+          "must not be the file of " + same->use + ", " + shown(same->file));
     }
     others.push_back(output);
   }
@@ -180,8 +177,8 @@ void Faults::require_writable(const std::vector<FileUse>& outputs) {
     if (output.file.empty() || output.file == "-") continue;
     const std::string why = why_unwritable(output.file);
     if (why.empty()) continue;
-    add({output.use, shown(output.file, std::string::npos),
-         "must be a file that can be written (" + why + ")", ""});
+    add(output.use, shown(output.file, std::string::npos),
+        "must be a file that can be written (" + why + ")");
   }
 }
 
@@ -202,13 +199,6 @@ std::vector<FileUse> named_tables(Drive drive, const std::string& file) {
         {std::string(parameter.path), (fs::path(file).parent_path() / **name).string()});
   }
   return tables;
-}
-
-double read_si(std::string_view field, std::string_view text, const Dimension& dimension) {
-  const std::optional<double> number = bare_number(text);
-  if (!number) return to_si(field, text, dimension);
-  if (!std::isfinite(*number)) refuse(field, text, "must be finite");
-  return *number;
 }
 
 namespace {
@@ -256,8 +246,8 @@ WrittenDrive changed_normal_form(const WrittenDrive& written, const ServoOptions
     if (form) {
       faults.collect(set_number, 0);
     } else {
-      faults.add({field, shown(typed.text),
-                  "must be left out: the drive has no normal form with this number", ""});
+      faults.add(field, shown(typed.text),
+                 "must be left out: the drive has no normal form with this number");
     }
   }
   faults.require_none();
@@ -282,9 +272,8 @@ WrittenDrive read_drive_as_typed(const ServoOptions& options, std::vector<Settin
   };
   const WrittenDrive written =
       parse_drive_by_form(source.text, source.name, source.folder, settings_of_form);
-  const std::vector<TypedNumber> typed = typed_numbers(options);
-  const bool has_ratio = std::any_of(typed.begin(), typed.end(),
-                                     [](const TypedNumber& one) { return is_ratio(one.number); });
+  const bool has_ratio =
+      any_of(typed_numbers(options), [](const TypedNumber& one) { return is_ratio(one.number); });
   return is_normal_form || !has_ratio ? written : changed_normal_form(written, options);
 }
 
@@ -313,18 +302,16 @@ std::vector<Axis> collect_axes(const char* field, const std::vector<std::string>
 }
 
 double read_time(const char* field, const std::string& text, Faults& faults) {
-  const double time = faults.collect([&] { return read_si(field, text, dimensions::time); }, 1.0);
-  if (!(time > 0.0)) faults.add({field, shown(text), "must be positive, in s", ""});
+  const auto read = [&] { return read_measured(field, text, dimensions::time).si; };
+  const double time = faults.collect(read, 1.0);
+  if (!(time > 0.0)) faults.add(field, shown(text), "must be positive, in s");
   return time;
 }
 
-double read_share(const std::string& field, std::string text, Faults& faults) {
-  const bool in_percent = text.ends_with('%');
-  if (in_percent) text.pop_back();
-  const double number = faults.collect([&] { return read_number(field, text); }, 0.5);
-  const double share = in_percent ? 0.01 * number : number;
+double read_share(const char* field, const std::string& text, Faults& faults) {
+  const double share = faults.collect([&] { return gearlash::read_share(field, text); }, 0.5);
   if (!(share > 0.0 && share <= 1.0)) {
-    faults.add({field, shown(text), "must be a share above 0 and up to 1, or \"95 %\"", ""});
+    faults.add(field, shown(text), "must be a share above 0 and up to 1, or \"95 %\"");
   }
   return share;
 }

@@ -58,6 +58,9 @@ class Faults {
  public:
   /// One fault of several drives is reported once.
   void add(Fault fault);
+  void add(std::string_view field, std::string_view value, std::string_view permitted) {
+    add({std::string(field), std::string(value), std::string(permitted), ""});
+  }
   void add(const std::vector<Fault>& faults) {
     for (const Fault& fault : faults) add(fault);
   }
@@ -89,9 +92,6 @@ class Faults {
 /// The axis that `read` returns. A line on standard error names the values that it left out.
 Axis collect_axis(const std::function<Axis(std::string* left_out)>& read, Faults& faults);
 
-/// A number in SI, or one with its unit ("50 ms"). Throws InvalidInput; "inf" is none.
-double read_si(std::string_view field, std::string_view text, const Dimension& dimension);
-
 /// The target of --target; an empty one where there is a fault. `drive`: nullptr if it is not
 /// known; a normal form without a natural frequency has no times.
 Target collect_target(const std::string& text, const Drive* drive, Faults& faults);
@@ -119,7 +119,7 @@ std::vector<Axis> collect_axes(const char* field, const std::vector<std::string>
 double read_time(const char* field, const std::string& text, Faults& faults);
 
 /// A share above 0 and up to 1, "95 %" or 0.95; a fault otherwise, and 0.5.
-double read_share(const std::string& field, std::string text, Faults& faults);
+double read_share(const char* field, const std::string& text, Faults& faults);
 
 /// The drive as its user has it: the file, or the normal form of the options, with the settings of
 /// --set. Adds faults to `faults`, also those of `outputs`: Faults::require_distinct() beside every

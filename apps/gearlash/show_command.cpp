@@ -11,12 +11,7 @@ constexpr char show_examples[] =
     "  gearlash show --damping 0.19 --inertia-ratio 2 --friction-ratio 0.1 --backlash 0.3\n"
     "  gearlash show examples/telescope-axis.toml --format json | jq .drive\n";
 
-struct ShowOptions {
-  ServoOptions servo;
-  std::string format = "text";
-};
-
-ExitStatus run(const ShowOptions& options, const Provenance& provenance) {
+ExitStatus run(const QuestionOptions& options, const Provenance& provenance) {
   Faults faults;
   faults.require_choice("--format", options.format, {"text", "toml", "json"});
   const std::optional<WrittenDrive> written = resolve_drive(options.servo, {}, faults);
@@ -29,7 +24,7 @@ ExitStatus run(const ShowOptions& options, const Provenance& provenance) {
 }  // namespace
 
 void add_show_command(const Command& app, Action& action) {
-  const auto [command, options] = add_verb<ShowOptions>(
+  const auto [command, options] = add_verb<QuestionOptions>(
       app, action, "show", "Write the drive with all defaults, as a file that reads back",
       help_footer(show_examples), run);
   add_servo_or_drive_options(command, options.servo);

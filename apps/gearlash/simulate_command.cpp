@@ -81,19 +81,17 @@ struct SimulateRequest {
 };
 
 Start read_start(const SimulateOptions& options, Faults& faults) {
-  const auto angle = [&](const char* field, const std::optional<std::string>& text) {
-    return faults.collect([&] { return text ? read_angle(field, *text).si : 0.0; }, 0.0);
+  const auto read = [&](const char* field, const std::optional<std::string>& text,
+                        const Dimension& dimension) -> std::optional<double> {
+    if (!text) return std::nullopt;
+    return faults.collect([&] { return read_measured(field, *text, dimension).si; }, 0.0);
   };
-  const auto speed = [&](const char* field, const std::optional<std::string>& text) {
-    const auto read = [&] { return text ? read_si(field, *text, dimensions::angular_speed) : 0.0; };
-    return faults.collect(read, 0.0);
-  };
-  Start start{.load_position = angle("--initial-position", options.initial_position),
-              .load_speed = speed("--initial-speed", options.initial_speed),
-              .gap = std::nullopt,
-              .gap_speed = speed("--initial-gap-speed", options.initial_gap_speed)};
-  if (options.initial_gap) start.gap = angle("--initial-gap", options.initial_gap);
-  return start;
+  const auto& [angle, speed] = std::tie(dimensions::angle, dimensions::angular_speed);
+  return {
+      .load_position = read("--initial-position", options.initial_position, angle).value_or(0.0),
+      .load_speed = read("--initial-speed", options.initial_speed, speed).value_or(0.0),
+      .gap = read("--initial-gap", options.initial_gap, angle),
+      .gap_speed = read("--initial-gap-speed", options.initial_gap_speed, speed).value_or(0.0)};
 }
 
 /// A step that shows hunting: five backlashes, at least twenty encoder counts, and three times the
@@ -135,11 +133,10 @@ void read_times(const SimulateOptions& options, const Drive* drive, SimulateRequ
   task.every = task.until / default_samples;
   if (options.every) task.every = read_time("--every", *options.every, faults);
   if (!options.events && faults.none() && !(task.until / task.every < most_samples)) {
-    faults.add({"--every", exact_text(task.every),
-                fmt::format("must be more than {} s: at most {} samples in {} s",
-                            significant(task.until / most_samples, 6), significant(most_samples, 3),
-                            exact_text(task.until)),
-                ""});
+    faults.add("--every", exact_text(task.every),
+               fmt::format("must be more than {} s: at most {} samples in {} s",
+                           significant(task.until / most_samples, 6), significant(most_samples, 3),
+                           exact_text(task.until)));
   }
 }
 
@@ -150,8 +147,9 @@ SimulateRequest read_task(const SimulateOptions& options, const std::vector<File
   task.start = read_start(options, faults);
   std::optional<Measured> reference;
   if (options.reference) {
-    reference =
-        faults.collect([&] { return read_angle("--reference", *options.reference); }, Measured{});
+    reference = faults.collect(
+        [&] { return read_measured("--reference", *options.reference, dimensions::angle); },
+        Measured{});
   }
   if (written) {
     task.written = *written;

@@ -38,7 +38,7 @@ struct SweepOptions {
 
 void require_netcdf(const std::string& output, Faults& faults) {
   if (std::filesystem::path(output).extension() == ".nc") return;
-  faults.add({"--output", shown(output), "must end in .nc", ""});
+  faults.add("--output", shown(output), "must end in .nc");
 }
 
 /// The command without --resume, so that a resumed sweep writes the same file.

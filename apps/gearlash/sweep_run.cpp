@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "base/checksum.hpp"
+#include "base/lists.hpp"
 #include "input/text_file.hpp"
 #include "input/units.hpp"
 #include "output/file_safety.hpp"
@@ -77,7 +78,24 @@ class SweepPart {
  public:
   /// Throws OutputError if the files cannot be made. Throws InvalidInput if OUTPUT exists but is no
   /// regular file, if another program writes OUTPUT.part, or if a file does not come from a sweep.
-  explicit SweepPart(const std::filesystem::path& output);
+  explicit SweepPart(const fs::path& output)
+      : output_(destination_of(output)),
+        data_(unfinished_files(output)[0]),
+        record_(unfinished_files(output)[1]),
+        shown_output_(whole_name(output)) {
+    std::error_code error;
+    const fs::file_status status = fs::status(output_, error);
+    if (fs::exists(status) && !fs::is_regular_file(status)) {
+      refuse_output("must be a regular file, or a new one");
+    }
+    try {
+      hold();
+      require_own_files();
+    } catch (...) {  // no destructor will run
+      let_go();
+      throw;
+    }
+  }
   /// Removes files without results, except those that existed before and were not begun.
   ~SweepPart() { let_go(); }
   SweepPart(const SweepPart&) = delete;
@@ -87,28 +105,123 @@ class SweepPart {
   bool is_begun() const { return is_begun_; }
   /// Its progress. Throws InvalidInput if it is of another sweep or version, or if the record has
   /// changed.
-  SweepRecord read_record(const GridContents& contents) const;
+  SweepRecord read_record(const GridContents& contents) const {
+    const Json json = read_json(record_);
+    try {
+      if (json.at("checksum") != checksum_of_record(json)) refuse_changed();
+      if (json.at("version") != contents.provenance.version) {
+        refuse("must be of the same version of gearlash");
+      }
+      if (json.at("sweep") != contents.source_text) refuse("must be of the same sweep file");
+      return {.count = {.solved = {.side_by_side = json.at("side_by_side"),
+                                   .one_by_one = json.at("one_by_one")},
+                        .searched = json.at("searched"),
+                        .refused = json.at("refused"),
+                        .unproved = json.at("unproved")},
+              .data = Checksum(json.at("checksum_of_data").get<std::uint64_t>())};
+    } catch (const Json::exception&) {  // it has the checksum of a record, and is none
+      refuse_changed();
+    }
+  }
   /// Writes the record, whole or not at all. The first one is written before the data, so that
   /// there are never data without a record.
-  void write_record(const GridContents& contents, const SweepRecord& record);
+  void write_record(const GridContents& contents, const SweepRecord& record) {
+    const RowCount& count = record.count;
+    Json json = {{"kind", kind},
+                 {"version", contents.provenance.version},
+                 {"points", contents.grid.size()},
+                 {"points_done", count.points()},
+                 {"side_by_side", count.solved.side_by_side},
+                 {"one_by_one", count.solved.one_by_one},
+                 {"searched", count.searched},
+                 {"refused", count.refused},
+                 {"unproved", count.unproved},
+                 {"sweep", contents.source_text},
+                 {"checksum_of_data", record.data.value()}};
+    json["checksum"] = checksum_of_record(json);
+    may_remove_data_ = may_remove_record_ = count.points() == 0;
+    write_file(record_, text_of(json));
+  }
   /// Gives the data their name.
-  void finish();
+  void finish() {
+    std::error_code error;
+    const fs::path folder = folder_of(output_);  // nothing may fail for want of memory after this
+    fs::rename(data_, output_, error);
+    if (error) throw OutputError(shown_output_ + ": cannot be written: " + error.message());
+    may_remove_data_ = false;
+    fs::remove(record_, error);
+    bring_names_to_disk(folder);
+  }
 
   const std::filesystem::path& data() const { return data_; }
   /// Bytes of the data on the disk.
-  std::size_t bytes() const;
+  std::size_t bytes() const {
+    constexpr std::size_t block = 512;  // as stat counts
+    struct stat held {};
+    return fstat(descriptor_, &held) == 0 ? static_cast<std::size_t>(held.st_blocks) * block : 0;
+  }
   const std::string& shown_output() const { return shown_output_; }
   /// "a.nc.part and a.nc.part.json"
-  std::string shown_files() const;
+  std::string shown_files() const {
+    return shown_output_ + ".part and " + shown_output_ + ".part.json";
+  }
+  [[noreturn]] void refuse_output(const std::string& permitted) const {
+    throw InvalidInput({{"--output", shown_output_, permitted, ""}});
+  }
   /// Throws InvalidInput about the files.
-  [[noreturn]] void refuse(const std::string& permitted) const;
+  [[noreturn]] void refuse(const std::string& permitted) const {
+    throw InvalidInput(
+        {{"--resume", shown_files(), permitted + "; remove both to start again", ""}});
+  }
   [[noreturn]] void refuse_changed() const { refuse("must be unchanged since the sweep stopped"); }
 
  private:
-  void hold();
-  void let_go() noexcept;
-  void require_own_files();
-  [[noreturn]] void refuse_foreign(const std::filesystem::path& file) const;
+  void hold() {
+    constexpr mode_t permissions = 0666;
+    descriptor_ = open(data_.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor_ < 0 && errno == ELOOP) refuse_foreign(data_);
+    if (descriptor_ < 0 && errno == ENOENT) {
+      descriptor_ = open(data_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, permissions);
+      may_remove_data_ = descriptor_ >= 0;
+    }
+    if (descriptor_ < 0 && errno != EEXIST) {
+      throw OutputError(whole_name(data_) +
+                        ": cannot be written: " + std::generic_category().message(errno));
+    }
+    struct stat held {};
+    struct stat named {};
+    // Another sweep may have finished between the two calls and renamed the file.
+    const bool is_ours = descriptor_ >= 0 && lock_file(descriptor_) != FileLock::elsewhere &&
+                         fstat(descriptor_, &held) == 0 && lstat(data_.c_str(), &named) == 0 &&
+                         held.st_ino == named.st_ino;
+    if (is_ours) return;
+    may_remove_data_ = false;
+    refuse_output("must not be written by another sweep at the same time");
+  }
+  void let_go() noexcept {
+    std::error_code ignored;
+    if (may_remove_data_) fs::remove(data_, ignored);
+    if (may_remove_record_) fs::remove(record_, ignored);
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  /// An empty file may be used, because it has nothing to lose.
+  void require_own_files() {
+    struct stat held {};
+    if (fstat(descriptor_, &held) != 0 || !S_ISREG(held.st_mode)) refuse_foreign(data_);
+    std::error_code ignored;
+    const fs::file_type type = fs::symlink_status(record_, ignored).type();
+    const bool has_record = type != fs::file_type::not_found;
+    if (has_record) {
+      const Json record = type == fs::file_type::regular ? read_json(record_) : Json();
+      if (!record.is_object() || record.value("kind", Json()) != kind) refuse_foreign(record_);
+    }
+    if (held.st_size > 0 && !has_record) refuse_foreign(data_);
+    is_begun_ = held.st_size > 0;
+  }
+  [[noreturn]] void refuse_foreign(const fs::path& file) const {
+    refuse_output("must have no foreign file beside it: " + whole_name(file) +
+                  " does not come from a sweep and is not touched; rename or remove it");
+  }
 
   std::filesystem::path output_;  ///< a symbolic link stays in place
   std::filesystem::path data_;
@@ -119,139 +232,6 @@ class SweepPart {
   bool may_remove_data_ = false;  ///< made here, without results
   bool may_remove_record_ = false;
 };
-
-SweepPart::SweepPart(const fs::path& output)
-    : output_(destination_of(output)),
-      data_(unfinished_files(output)[0]),
-      record_(unfinished_files(output)[1]),
-      shown_output_(whole_name(output)) {
-  std::error_code error;
-  const fs::file_status status = fs::status(output_, error);
-  if (fs::exists(status) && !fs::is_regular_file(status)) {
-    throw InvalidInput({{"--output", shown_output_, "must be a regular file, or a new one", ""}});
-  }
-  try {
-    hold();
-    require_own_files();
-  } catch (...) {  // no destructor will run
-    let_go();
-    throw;
-  }
-}
-
-void SweepPart::hold() {
-  constexpr mode_t permissions = 0666;
-  descriptor_ = open(data_.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (descriptor_ < 0 && errno == ELOOP) refuse_foreign(data_);
-  if (descriptor_ < 0 && errno == ENOENT) {
-    descriptor_ = open(data_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, permissions);
-    may_remove_data_ = descriptor_ >= 0;
-  }
-  if (descriptor_ < 0 && errno != EEXIST) {
-    throw OutputError(whole_name(data_) +
-                      ": cannot be written: " + std::generic_category().message(errno));
-  }
-  struct stat held {};
-  struct stat named {};
-  // Another sweep may have finished between the two calls and renamed the file.
-  const bool is_ours = descriptor_ >= 0 && lock_file(descriptor_) != FileLock::elsewhere &&
-                       fstat(descriptor_, &held) == 0 && lstat(data_.c_str(), &named) == 0 &&
-                       held.st_ino == named.st_ino;
-  if (is_ours) return;
-  may_remove_data_ = false;
-  throw InvalidInput(
-      {{"--output", shown_output_, "must not be written by another sweep at the same time", ""}});
-}
-
-/// An empty file may be used, because it has nothing to lose.
-void SweepPart::require_own_files() {
-  struct stat held {};
-  if (fstat(descriptor_, &held) != 0 || !S_ISREG(held.st_mode)) refuse_foreign(data_);
-  std::error_code ignored;
-  const fs::file_type type = fs::symlink_status(record_, ignored).type();
-  const bool has_record = type != fs::file_type::not_found;
-  if (has_record) {
-    const Json record = type == fs::file_type::regular ? read_json(record_) : Json();
-    if (!record.is_object() || record.value("kind", Json()) != kind) refuse_foreign(record_);
-  }
-  if (held.st_size > 0 && !has_record) refuse_foreign(data_);
-  is_begun_ = held.st_size > 0;
-}
-
-void SweepPart::let_go() noexcept {
-  std::error_code ignored;
-  if (may_remove_data_) fs::remove(data_, ignored);
-  if (may_remove_record_) fs::remove(record_, ignored);
-  if (descriptor_ >= 0) close(descriptor_);
-}
-
-SweepRecord SweepPart::read_record(const GridContents& contents) const {
-  const Json json = read_json(record_);
-  try {
-    if (json.at("checksum") != checksum_of_record(json)) refuse_changed();
-    if (json.at("version") != contents.provenance.version) {
-      refuse("must be of the same version of gearlash");
-    }
-    if (json.at("sweep") != contents.source_text) refuse("must be of the same sweep file");
-    return {.count = {.solved = {.side_by_side = json.at("side_by_side"),
-                                 .one_by_one = json.at("one_by_one")},
-                      .searched = json.at("searched"),
-                      .refused = json.at("refused"),
-                      .unproved = json.at("unproved")},
-            .data = Checksum(json.at("checksum_of_data").get<std::uint64_t>())};
-  } catch (const Json::exception&) {  // it has the checksum of a record, and is none
-    refuse_changed();
-  }
-}
-
-void SweepPart::write_record(const GridContents& contents, const SweepRecord& record) {
-  const RowCount& count = record.count;
-  Json json = {{"kind", kind},
-               {"version", contents.provenance.version},
-               {"points", contents.grid.size()},
-               {"points_done", count.points()},
-               {"side_by_side", count.solved.side_by_side},
-               {"one_by_one", count.solved.one_by_one},
-               {"searched", count.searched},
-               {"refused", count.refused},
-               {"unproved", count.unproved},
-               {"sweep", contents.source_text},
-               {"checksum_of_data", record.data.value()}};
-  json["checksum"] = checksum_of_record(json);
-  may_remove_data_ = may_remove_record_ = count.points() == 0;
-  write_file(record_, text_of(json));
-}
-
-void SweepPart::finish() {
-  std::error_code error;
-  const fs::path folder = folder_of(output_);  // nothing may fail for want of memory after this
-  fs::rename(data_, output_, error);
-  if (error) throw OutputError(shown_output_ + ": cannot be written: " + error.message());
-  may_remove_data_ = false;
-  fs::remove(record_, error);
-  bring_names_to_disk(folder);
-}
-
-std::size_t SweepPart::bytes() const {
-  constexpr std::size_t block = 512;  // as stat counts
-  struct stat held {};
-  return fstat(descriptor_, &held) == 0 ? static_cast<std::size_t>(held.st_blocks) * block : 0;
-}
-
-std::string SweepPart::shown_files() const {
-  return shown_output_ + ".part and " + shown_output_ + ".part.json";
-}
-
-void SweepPart::refuse_foreign(const fs::path& file) const {
-  throw InvalidInput({{"--output", shown_output_,
-                       "must have no foreign file beside it: " + whole_name(file) +
-                           " does not come from a sweep and is not touched; rename or remove it",
-                       ""}});
-}
-
-void SweepPart::refuse(const std::string& permitted) const {
-  throw InvalidInput({{"--resume", shown_files(), permitted + "; remove both to start again", ""}});
-}
 
 /// Points that are held in memory, written and recorded together: 50 MB.
 constexpr std::size_t longest_piece = std::size_t{1} << 19U;
@@ -269,8 +249,7 @@ void require_room(const SweepPart& part, std::size_t bytes) {
 
 /// Point by point, so that the checksum does not depend on the blocks.
 void add(Checksum& checksum, const Table& table, const std::vector<Quantity>& quantities) {
-  std::vector<std::span<const double>> columns;
-  for (const Quantity quantity : quantities) columns.push_back(table[quantity]);
+  const auto columns = of_each(quantities, [&](Quantity quantity) { return table[quantity]; });
   for (std::size_t row = 0; row < table.rows(); ++row) {
     checksum.add(static_cast<std::uint64_t>(table.verdict(row)));
     for (const auto& column : columns) checksum.add(std::bit_cast<std::uint64_t>(column[row]));
@@ -305,10 +284,8 @@ RowCount run_sweep(const SweepFile& sweep, const Provenance& provenance,
                    const std::filesystem::path& output, SweepStart start, Progress& progress) {
   SweepPart part(output);
   if (part.is_begun() && start == SweepStart::anew) {
-    throw InvalidInput({{"--output", part.shown_output(),
-                         "must have no unfinished sweep beside it: continue " + part.shown_files() +
-                             " with --resume, or remove both to start again",
-                         ""}});
+    part.refuse_output("must have no unfinished sweep beside it: continue " + part.shown_files() +
+                       " with --resume, or remove both to start again");
   }
   const GridContents contents{sweep.grid, sweep.quantities, provenance, sweep.text};
   SweepRecord recorded = part.is_begun() ? part.read_record(contents) : SweepRecord{};

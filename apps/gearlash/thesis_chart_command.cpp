@@ -1,9 +1,9 @@
 // gearlash thesis figure, all, chart-reading and extension: the charts of 1960 and later ones.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 
+#include "base/lists.hpp"
 #include "base/progress_part.hpp"
 #include "input/section_reader.hpp"
 #include "output/columns.hpp"
@@ -23,31 +23,11 @@ constexpr char figure_examples[] =
     "  gearlash thesis figure 12 --output phase.pdf\n"
     "  gearlash thesis all --output figures\n";
 
-std::vector<int> figure_numbers() {
-  std::vector<int> numbers;
-  for (const auto& figure : thesis::thesis_figures()) numbers.push_back(figure.number);
-  for (const auto& figure : thesis::thesis_phase_figures()) numbers.push_back(figure.number);
-  return numbers;
-}
-
 int read_figure_number(const std::string& text) {
-  std::vector<std::string> names;
-  for (const int number : figure_numbers()) {
-    names.push_back(std::to_string(number));
-    if (text == names.back()) return number;
-  }
+  const auto names =
+      of_each(thesis::figure_numbers(), [](int number) { return std::to_string(number); });
+  if (contains(names, text)) return std::stoi(text);
   refuse("N", text, "must be the number of a figure: " + alternatives(names));
-}
-
-Plot figure_plot(int number, Progress& progress = no_progress()) {
-  for (const auto& figure : thesis::thesis_phase_figures()) {
-    if (figure.number == number) return plot_of(figure);
-  }
-  const auto& figures = thesis::thesis_figures();
-  const auto figure = std::find_if(figures.begin(), figures.end(), [&](const auto& candidate) {
-    return candidate.number == number;
-  });
-  return plot_of(*figure, progress);
 }
 
 // --- chart-reading ---
@@ -119,7 +99,7 @@ ExitStatus draw_figure(const FigureOptions& typed, const Provenance&) {
   const int number = faults.collect([&] { return read_figure_number(typed.number); }, 2);
   const PlotFile file = read_output(typed.output, fmt::format("figure-{}.svg", number), faults);
   faults.require_none();
-  write_plot(file, figure_plot(number));
+  write_plot(file, thesis::figure_plot(number).value());
   return ExitStatus::done;
 }
 
@@ -132,9 +112,8 @@ void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (!error) return;
-  throw InvalidInput(
-      {{"--output", shown(folder.string()),
-        "must be a folder that exists or can be made (" + error.message() + ")", ""}});
+  refuse("--output", folder.string(),
+         "must be a folder that exists or can be made (" + error.message() + ")");
 }
 
 ExitStatus draw_all(const FolderOptions& typed, const Provenance&) {
@@ -143,7 +122,7 @@ ExitStatus draw_all(const FolderOptions& typed, const Provenance&) {
   faults.require_none();
   const std::filesystem::path folder = typed.folder;
   make_folder(folder);
-  const std::vector<int> numbers = figure_numbers();
+  const std::vector<int> numbers = thesis::figure_numbers();
   const auto file = [&](std::size_t i) {
     return (folder / fmt::format("figure-{}.svg", numbers[i])).string();
   };
@@ -154,7 +133,7 @@ ExitStatus draw_all(const FolderOptions& typed, const Provenance&) {
   std::size_t drawn = 0;
   while (drawn < numbers.size()) {
     ProgressPart part(progress, drawn, numbers.size());
-    const Plot plot = figure_plot(numbers[drawn], part);
+    const Plot plot = thesis::figure_plot(numbers[drawn], part).value();
     if (!work.go_on()) break;
     write_plot({.file = file(drawn++)}, plot);
   }
@@ -171,17 +150,15 @@ ExitStatus read_charts(const ServoOptions& typed, const Provenance&) {
   return ExitStatus::done;
 }
 
-struct ExtensionOptions {
-  std::string number;
-  std::string output;
+struct ExtensionOptions : FigureOptions {
   LimitOptions limits;
 };
 
 ExitStatus draw_extension(const ExtensionOptions& typed, const Provenance&) {
   Faults faults;
   if (typed.number != "2" && typed.number != "3" && typed.number != "4") {
-    faults.add({"N", shown(typed.number),
-                "must be 2, 3 or 4 (recommendation 1 is gearlash thesis run)", ""});
+    faults.add("N", shown(typed.number),
+               "must be 2, 3 or 4 (recommendation 1 is gearlash thesis run)");
   }
   const PlotFile file = read_output(typed.output, "extension-" + typed.number + ".svg", faults);
   const Limits limits = read_limits(typed.limits, faults);

@@ -162,13 +162,10 @@ thesis::SettledCycle settled(const thesis::ProgramParameters& parameters, bool o
                     : thesis::run_until_settled(parameters, {}, progress);
 }
 
-struct RunOptions {
-  ServoOptions servo;
+struct RunOptions : QuestionOptions {
   bool all = false;
   bool causes = false;
   bool machine = false;
-  std::vector<std::string> plots;
-  LimitOptions limits;
 };
 
 ExitStatus run_charts(const RunOptions& options) {

@@ -1,11 +1,9 @@
 // gearlash tolerance: how a production run behaves.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "model/proportional_servo.hpp"
 #include "output/tolerance_report.hpp"
-#include "picture/tolerance_pictures.hpp"
+#include "picture/report_pictures.hpp"
 #include "question/series/toleranced_drive.hpp"
 #include "verb.hpp"
 
@@ -37,17 +35,6 @@ struct ToleranceOptions : QuestionOptions {
   std::string yield;
 };
 
-constexpr std::pair<const char*, TolerancePicture> pictures[] = {
-    {"distribution", TolerancePicture::distribution},
-    {"yield", TolerancePicture::yield},
-    {"indices", TolerancePicture::indices}};
-
-TolerancePicture picture_of(const PlotFile& plot) {
-  return std::find_if(std::begin(pictures), std::end(pictures),
-                      [&](const auto& one) { return plot.kind == one.first; })
-      ->second;
-}
-
 struct ToleranceRequest {
   TolerancedDrive drive;
   AngleUnit angle;
@@ -74,7 +61,7 @@ void read_sampling(const ToleranceOptions& options, ToleranceRequest& task, Faul
   if (!options.error.empty()) {
     task.error = read_share("--error", options.error, faults);
     if (task.error < 1e-6 || task.error > 0.5) {
-      faults.add({"--error", options.error, "must be from 0.0001 % to 50 %", ""});
+      faults.add("--error", options.error, "must be from 0.0001 % to 50 %");
     }
   }
 }
@@ -110,21 +97,15 @@ void read_questions(const ToleranceOptions& options, const Drive* drive, Toleran
   if (options.yield.empty()) return;
   task.yield = read_share("--yield", options.yield, faults);
   if (options.target.empty()) {
-    faults.add({"--target", "", "must be given: --yield is the share of samples that meet it", ""});
+    faults.add("--target", "", "must be given: --yield is the share of samples that meet it");
   }
-}
-
-void read_pictures(const ToleranceOptions& options, ToleranceRequest& task, Faults& faults) {
-  std::vector<std::string> kinds;
-  for (const auto& [name, picture] : pictures) kinds.emplace_back(name);
-  task.plots = read_plots(options.plots, kinds, faults);
 }
 
 ToleranceRequest read_task(const ToleranceOptions& options) {
   ToleranceRequest task;
   Faults faults;
   faults.require_choice("--format", options.format, {"text", "json"});
-  read_pictures(options, task, faults);
+  task.plots = read_plots(options.plots, {"distribution", "yield", "indices"}, faults);
   const std::optional<WrittenDrive> written =
       resolve_drive(options.servo, files_of(task.plots), faults);
   const bool is_searched = written && are_searched(*written);
@@ -132,7 +113,7 @@ ToleranceRequest read_task(const ToleranceOptions& options) {
   read_amplitude(options, is_searched, task, faults);
   read_questions(options, written ? &written->drive : nullptr, task, faults);
   if (is_searched && !options.yield.empty()) {
-    faults.add({"--yield", options.yield, permitted_with_servo, ""});
+    faults.add("--yield", options.yield, permitted_with_servo);
   }
   task.limits = read_limits(options.limits, faults);
   faults.require_none();
@@ -140,9 +121,8 @@ ToleranceRequest read_task(const ToleranceOptions& options) {
                 written->tolerances};
   task.angle = written->angle;
   if (task.drive.varied.empty()) {
-    throw InvalidInput(
-        {{"DRIVE.toml", shown(options.servo.file),
-          "must have a number with a tolerance, such as \"0.61 oz in2 ± 10 %\"", ""}});
+    refuse("DRIVE.toml", options.servo.file,
+           "must have a number with a tolerance, such as \"0.61 oz in2 ± 10 %\"");
   }
   choose_effort(options, task);
   return task;
@@ -209,7 +189,7 @@ ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
                .unknown = unknown_text(report)},
               work, task.plots, [&](const PlotFile& plot) {
                 if (report.sensitivities.numbers.empty()) refuse_to_draw(plot);
-                return tolerance_plot(report, picture_of(plot));
+                return tolerance_plot(report, plot.kind);
               });
 }
 

@@ -1,6 +1,6 @@
 // gearlash tune: the best values of several parameters for a whole series.
-#include <algorithm>
 
+#include "base/lists.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
 #include "gearlash/tune.hpp"
@@ -63,7 +63,7 @@ void read_numbers(const TuneOptions& options, TuneTask& task, TuneEffort& effort
   task.aim = read_aim(options.aim, faults);
   task.share = read_share("--share", options.share, faults);
   task.least_phase_margin = faults.collect(
-      [&] { return read_si("--phase-margin", options.phase_margin, dimensions::angle); },
+      [&] { return read_measured("--phase-margin", options.phase_margin, dimensions::angle).si; },
       task.least_phase_margin);
   constexpr std::size_t most_units = 100'000;
   effort.units = collect_whole("--units", options.units, 1, most_units, faults);
@@ -87,7 +87,7 @@ TuneRequest read_request(const TuneOptions& options) {
   const auto names = options.parameters.empty() ? usual_gains(drive) : options.parameters;
   task.tuned = collect_axes("--parameters", names, drive, read_axis_to_tune, faults);
   if (names.empty()) {
-    faults.add({"--parameters", "", "must name what to tune: the drive has no gain above 0", ""});
+    faults.add("--parameters", "", "must name what to tune: the drive has no gain above 0");
   }
   report.target_text = options.target;
   if (options.target.empty()) {
@@ -98,9 +98,8 @@ TuneRequest read_request(const TuneOptions& options) {
   }
   faults.require_none();
   std::erase_if(task.series.varied, [&](const ParameterTolerance& varied) {
-    return std::any_of(task.tuned.begin(), task.tuned.end(), [&](const Axis& axis) {
-      return parameter_of(axis, drive)->path == varied.path;
-    });
+    return any_of(task.tuned,
+                  [&](const Axis& axis) { return parameter_of(axis, drive)->path == varied.path; });
   });
   return request;
 }

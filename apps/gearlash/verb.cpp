@@ -6,6 +6,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "base/lists.hpp"
 #include "input/section_reader.hpp"
 #include "input/units.hpp"
 
@@ -18,9 +19,7 @@ bool is_plain(char c) {
 }
 
 std::string shell_quoted(const std::string& argument) {
-  if (!argument.empty() && std::all_of(argument.begin(), argument.end(), is_plain)) {
-    return argument;
-  }
+  if (!argument.empty() && all_of(argument, is_plain)) return argument;
   // Control characters are escaped by shown(): the command stays on its line, in a CSV file too.
   std::string quoted = "'";
   for (const char c : argument.empty() ? argument : shown(argument, std::string_view::npos)) {
@@ -96,13 +95,12 @@ Option add_plot_option(const Command& command, std::vector<std::string>& typed,
 
 std::vector<PlotFile> read_plots(const std::vector<std::string>& typed,
                                  const std::vector<std::string>& kinds, Faults& faults) {
-  std::vector<std::string> forms;
-  for (const std::string& kind : kinds) forms.push_back(kind + "=FILE");
+  const auto forms = of_each(kinds, [](const std::string& kind) { return kind + "=FILE"; });
   std::vector<PlotFile> plots;
   for (const std::string& text : typed) {
     const std::size_t sign = text.find('=');
     const std::string kind = text.substr(0, sign);
-    if (sign == std::string::npos || std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
+    if (sign == std::string::npos || !contains(kinds, kind)) {
       faults.add(
           {"--plot", shown(text), "must be " + alternatives(forms) + guess_of(kinds, kind), ""});
       continue;
@@ -120,14 +118,11 @@ PlotFile read_picture(const char* field, const std::string& file, Faults& faults
 }
 
 std::vector<FileUse> files_of(const std::vector<PlotFile>& plots) {
-  std::vector<FileUse> files;
-  for (const PlotFile& plot : plots) files.push_back({"--plot", plot.file});
-  return files;
+  return of_each(plots, [](const PlotFile& plot) { return FileUse{"--plot", plot.file}; });
 }
 
 bool has_kind(const std::vector<PlotFile>& plots, const std::string& kind) {
-  return std::any_of(plots.begin(), plots.end(),
-                     [&](const PlotFile& plot) { return plot.kind == kind; });
+  return any_of(plots, [&](const PlotFile& plot) { return plot.kind == kind; });
 }
 
 void write_plot(const PlotFile& file, const Plot& plot) {

@@ -17,26 +17,15 @@
 namespace gearlash::python {
 namespace {
 
-/// One FeasibleValues for each of the parameters: paths, "PATH=FROM:TO:COUNT" or gearlash.Axis.
-py::object designed(py::handle drive, py::handle target, const py::object& parameters,
-                    const py::object& progress) {
-  const Drive of = drive_of(drive);
-  const auto limits = from_python<Target>(target, "target");
-  std::vector<Axis> axes;
-  for (const py::handle& one : parameters) {
-    axes.push_back(py::isinstance<py::str>(one)
-                       ? read_axis_to_search("parameters", one.cast<std::string>(), of)
-                       : from_python<Axis>(one, "parameters"));
+std::vector<FeasibleValues> designed(Progress& reports, const Drive& drive, const Target& target,
+                                     const std::vector<Axis>& axes) {
+  std::vector<FeasibleValues> found;
+  while (found.size() < axes.size()) {
+    ProgressPart part(reports, found.size(), axes.size());
+    if (!part.go_on(0.0)) break;
+    found.push_back(values(drive, axes[found.size()], target, part));
   }
-  return to_python(interruptible(progress, [&](Progress& reports) {
-    std::vector<FeasibleValues> found;
-    while (found.size() < axes.size()) {
-      ProgressPart part(reports, found.size(), axes.size());
-      if (!part.go_on(0.0)) break;
-      found.push_back(values(of, axes[found.size()], limits, part));
-    }
-    return found;
-  }));
+  return found;
 }
 
 HuntingMargin margin_of(Progress& reports, const Drive& drive, const std::vector<Axis>& axes) {
@@ -84,14 +73,14 @@ void add_design(py::module_& module) {
       module, "target",
       [](const std::string& text, const Drive& drive) { return parse_target(text, drive); },
       "target", "drive");
-  module.def("design", designed, py::call_guard<LongCall>());
+  define(module, "design", designed, "drive", "target", "parameters");
   define(module, "usual_parameters", usual_parameters, "drive");
   define(
       module, "axis",
-      [](const std::string& text, const Drive& drive) {
-        return read_axis_to_search("axis", text, drive);
+      [](const std::string& name, const std::string& text, const Drive& drive) {
+        return read_axis_to_search(name, text, drive);
       },
-      "axis", "drive");
+      "name", "axis", "drive");
   define(module, "margins", margin_of, "drive", "axes");
   define(module, "tolerance_study", studied, "series", "sampling", "questions", "error");
   module.def("answer_samples", answered_samples, py::call_guard<LongCall>());

@@ -1,9 +1,8 @@
 // Drives with their tolerances: read, changed, written.
 #include <pybind11/stl.h>
 
-#include <algorithm>
-
 #include "base/fault.hpp"
+#include "base/lists.hpp"
 #include "gearlash/output.hpp"
 #include "gearlash/parameter.hpp"
 #include "input/drive_file.hpp"
@@ -27,9 +26,8 @@ void forget_files(Drive& drive) {
 TolerancedDrive read(const std::string& text, const std::string& name, const std::string& folder,
                      const std::vector<std::pair<std::string, std::string>>& settings,
                      bool is_of_program) {
-  std::vector<Setting> list;
-  for (const auto& [path, value] : settings) list.push_back({path, value});
-  WrittenDrive written = parse_drive(text, name, folder, list,
+  const auto setting_of = [](const auto& one) { return Setting{one.first, one.second}; };
+  WrittenDrive written = parse_drive(text, name, folder, of_each(settings, setting_of),
                                      is_of_program ? BareNumbers::in_si : BareNumbers::refused);
   forget_files(written.drive);
   return {std::move(written.drive), std::move(written.tolerances)};

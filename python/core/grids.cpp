@@ -3,6 +3,7 @@
 
 #include "arrays.hpp"
 #include "base/fault.hpp"
+#include "base/lists.hpp"
 #include "define.hpp"
 #include "gearlash/grid.hpp"
 #include "gearlash/version.hpp"
@@ -75,11 +76,13 @@ py::tuple evaluated_list(py::handle drive, const std::vector<std::string>& paths
       quantities);
 }
 
-py::dict dict_of(const NamedParameter& parameter) {
-  using namespace py::literals;
+using namespace py::literals;
+
+/// With a further entry of that name.
+py::dict dict_of(const NamedParameter& parameter, const char* name, const py::object& further) {
   return py::dict("name"_a = parameter.name, "path"_a = parameter.path,
                   "meaning"_a = parameter.meaning, "unit"_a = parameter.unit,
-                  "words"_a = py::str(parameter.words).attr("split")());
+                  "words"_a = py::str(parameter.words).attr("split")(), py::arg(name) = further);
 }
 
 /// What the tool's NetCDF files say of the grid.
@@ -87,25 +90,20 @@ py::dict description(py::handle drive, py::handle axes, bool proved) {
   const Grid grid = grid_of(drive, axes, proved);
   py::list described;
   for (const Axis& axis : grid.axes) {
-    described.append(dict_of(named_parameter(axis, grid.drive)));
-    described[described.size() - 1]["spacing"] = spacing_of(axis);
+    described.append(
+        dict_of(named_parameter(axis, grid.drive), "spacing", py::str(spacing_of(axis))));
   }
   py::list fixed;
   for (const FixedNumber& number : fixed_numbers(grid)) {
-    fixed.append(dict_of(number.parameter));
-    fixed[fixed.size() - 1]["value"] = number.value;
+    fixed.append(dict_of(number.parameter, "value", py::float_(number.value)));
   }
   py::dict attributes;
   const Provenance provenance{.command = "gearlash.sweep", .version = version};
   for (const auto& [name, text] : attributes_of_file({grid, {}, provenance})) {
     attributes[py::str(name)] = text;
   }
-  py::dict all;
-  all["axes"] = described;
-  all["fixed"] = fixed;
-  all["attributes"] = attributes;
-  all["verdicts"] = verdict_words();
-  return all;
+  return py::dict("axes"_a = described, "fixed"_a = fixed, "attributes"_a = attributes,
+                  "verdicts"_a = verdict_words());
 }
 
 }  // namespace
@@ -127,12 +125,11 @@ void add_grids(py::module_& module) {
   module.def("read_axis", [](const std::string& path, const std::string& values, py::handle drive) {
     return to_python(read_axis({path, path, values}, drive_of(drive)));
   });
-  module.def("drive_of_axes",
-             [](py::handle drive, const std::vector<std::pair<std::string, std::string>>& axes) {
-               std::vector<AxisText> texts;
-               for (const auto& [path, values] : axes) texts.push_back({path, path, values});
-               return drive_to_python(drive_of_axes(drive_of(drive), texts));
-             });
+  module.def("drive_of_axes", [](py::handle drive,
+                                 const std::vector<std::pair<std::string, std::string>>& axes) {
+    const auto text_of = [](const auto& one) { return AxisText{one.first, one.first, one.second}; };
+    return drive_to_python(drive_of_axes(drive_of(drive), of_each(axes, text_of)));
+  });
 }
 
 }  // namespace gearlash::python

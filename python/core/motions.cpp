@@ -66,7 +66,6 @@ std::vector<std::string> modes_at(const Motion& motion, const Numbers& times) {
 void add_motions(py::module_& module) {
   py::class_<Motion>(module, "Motion")
       .def("sampled", sampled, py::call_guard<LongCall>())
-      .def("sample_count", &Motion::sample_count)
       .def("at", at, py::call_guard<LongCall>())
       .def("modes_at", modes_at)
       .def("events", events)

@@ -14,7 +14,7 @@ namespace gearlash::python {
 namespace {
 
 MotionPicture picture_of(const Motion& motion, py::handle drive, const std::string& unit) {
-  const Measured one = read_angle("unit", "1 " + unit);
+  const Measured one = read_measured("unit", "1 " + unit, dimensions::angle);
   MotionPicture picture{.drive = drive_of(drive),
                         .angle = {.name = one.unit, .radians = one.unit_in_si}};
   if (is_normalized(picture.drive)) picture.drive.servo->natural_frequency = 1.0;  // as in all SI

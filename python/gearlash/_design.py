@@ -33,6 +33,9 @@ def target(wanted: TargetLike, drive: Drive) -> Target:
     return wanted if isinstance(wanted, Target) else _core.target(wanted, drive)
 
 
+_target = target  # where an argument has its name
+
+
 def design(drive: Drive, wanted: TargetLike, parameters: Sequence[str | Axis] | None = None, *,
            progress: Progress = None) -> dict[str, FeasibleValues]:
     """Find the values of single parameters that meet a target.
@@ -66,10 +69,14 @@ def design(drive: Drive, wanted: TargetLike, parameters: Sequence[str | Axis] | 
     >>> found.kind, round(found.nearest, 6)
     ('certified', 0.849487)
     """
-    asked = (listed("parameters", parameters) if parameters is not None
-             else list(_core.usual_parameters(drive)))
-    answers = _core.design(drive, target(wanted, drive), asked, progress)
+    asked = _core.usual_parameters(drive) if parameters is None else parameters
+    answers = _core.design(drive, target(wanted, drive), _axes("parameters", asked, drive), progress)
     return {answer.parameter: answer for answer in answers}
+
+
+def _axes(name: str, given: Sequence[Axis | str], drive: Drive) -> tuple[Axis, ...]:
+    return tuple(_core.axis(name, one, drive) if isinstance(one, str) else one
+                 for one in listed(name, given))
 
 
 def margins(drive: Drive, axes: Sequence[Axis | str] = (), *,
@@ -89,9 +96,7 @@ def margins(drive: Drive, axes: Sequence[Axis | str] = (), *,
     InvalidInput
         For an unsound drive and for axes that it does not have.
     """
-    asked = tuple(_core.axis(one, drive) if isinstance(one, str) else one
-                  for one in listed("axes", axes))
-    return _core.margins(drive, asked, progress)
+    return _core.margins(drive, _axes("axes", axes, drive), progress)
 
 
 def series(drive: SeriesLike, varied: Mapping[str, Distribution] | None = None) -> TolerancedDrive:
@@ -245,14 +250,10 @@ def widest_backlash(drive: SeriesLike, target: TargetLike, share: float = 0.95, 
     >>> print(gearlash.widest_backlash(servo, "amplitude <= 0.1 rad", varied=varied))  # from 0.3 on
     None
     """
-    one, _, sampling = _study(drive, varied, target, samples, seed, "amplitude")
-    demand = BacklashDemand(target=_target(target, one), yield_=_share("share", share),
+    one, questions, sampling = _study(drive, varied, target, samples, seed, "amplitude")
+    demand = BacklashDemand(target=questions.target, yield_=_share("share", share),
                             min=optional_number("least", least))
     return _core.widest_backlash(one, demand, sampling, progress)
-
-
-def _target(wanted: TargetLike, one: TolerancedDrive) -> Target:
-    return target(wanted, one.nominal)
 
 
 def _study(drive: SeriesLike, varied: Mapping[str, Distribution] | None, wanted: TargetLike | None,
@@ -264,7 +265,7 @@ def _study(drive: SeriesLike, varied: Mapping[str, Distribution] | None, wanted:
             raise ValueError(f"shares must be from 0 to 1, not {one_share}")
     shafts: tuple[Quantity, Quantity] = ("amplitude", "motor_amplitude")
     questions = StudyQuestions(amplitude=one_of("quantity", quantity, shafts),
-                               target=Target() if wanted is None else _target(wanted, one),
+                               target=Target() if wanted is None else target(wanted, one.nominal),
                                **where_given(**more))
     plan = (_core.usual_sampling(one, questions) if samples is None
             else _core.sampling_of(whole("samples", samples, 1), 0))
@@ -328,7 +329,7 @@ def tune(drive: SeriesLike, parameters: Sequence[str | Axis] | None = None, *,
     task = TuneTask(
         series=TolerancedDrive(nominal, tuple(v for v in one.varied if v.path not in tuned)),
         tuned=axes,
-        target=_core.usual_target(nominal) if target is None else _target(target, one),
+        target=_core.usual_target(nominal) if target is None else _target(target, nominal),
         aim=aim, share=_share("share", share), **where_given(least_phase_margin=least_phase_margin))
     effort = TuneEffort(seed=whole("seed", seed, 0), **where_given(
         **{name: whole(name, value, 1) for name, value in

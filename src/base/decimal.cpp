@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <locale>
 #include <sstream>
-#include <string>
 
 namespace gearlash {
 

@@ -1,7 +1,6 @@
 #include "base/range_check.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "base/decimal.hpp"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "base/lists.hpp"
 #include "base/range_check.hpp"
 #include "gearlash/parameter.hpp"
 #include "gearlash/tune.hpp"
@@ -64,11 +65,8 @@ bool is_rounded(const AxisText& axis, const Drive& drive) {
   const std::string path = path_named(axis.name, drive);
   const Parameter* parameter = find_parameter(path.substr(0, path.find('[')));
   if (parameter == nullptr || !may_be_rounded(*parameter, drive)) return false;
-  const std::vector<std::string_view> ranges = split(axis.values, ":");
-  return std::any_of(ranges.begin(), ranges.end(), [](std::string_view range) {
-    const std::vector<std::string_view> values = split(range, ",");
-    return std::any_of(values.begin(), values.end(), has_long_decimal);
-  });
+  return any_of(split(axis.values, ":"),
+                [](std::string_view range) { return any_of(split(range, ","), has_long_decimal); });
 }
 
 /// An axis as typed, or that of a name alone.
@@ -118,12 +116,11 @@ Axis read_axis_to_tune(std::string_view field, std::string_view text, const Driv
 }
 
 Drive drive_of_axes(const Drive& drive, const std::vector<AxisText>& axes) {
-  const bool wants_normal_form = std::any_of(axes.begin(), axes.end(), [&](const AxisText& axis) {
+  const bool wants_normal_form = any_of(axes, [&](const AxisText& axis) {
     return path_named(axis.name, drive).starts_with("servo.");
   });
   Drive varied = drive.servo || !wants_normal_form ? drive : normal_form_of(drive).value_or(drive);
-  varied.is_rounded |= std::any_of(axes.begin(), axes.end(),
-                                   [&](const AxisText& axis) { return is_rounded(axis, varied); });
+  varied.is_rounded |= any_of(axes, [&](const AxisText& axis) { return is_rounded(axis, varied); });
   return varied;
 }
 

@@ -1,11 +1,12 @@
 #include "input/drive_file.hpp"
 
-#include <algorithm>
 #include <limits>
 #include <utility>
 
+#include "base/lists.hpp"
 #include "gearlash/input.hpp"
 #include "input/drive_reader.hpp"
+#include "input/parameter_text.hpp"
 #include "input/text_file.hpp"
 #include "input/toml_document.hpp"
 #include "input/utf8.hpp"
@@ -18,21 +19,14 @@ constexpr std::string_view nothing = "none";
 
 /// Whether a file of any form has a section of this name: "sampling", "actuator".
 bool is_section(std::string_view name) {
-  const auto is_in_it = [&](std::string_view path) {
-    return path.substr(0, path.find('.')) == name;
-  };
-  const std::vector<Parameter>& all = all_parameters_of_drives();
-  return std::any_of(all.begin(), all.end(), [&](const Parameter& parameter) {
-    return is_in_it(parameter.path) ||
-           std::any_of(parameter.other_forms.begin(), parameter.other_forms.end(),
-                       [&](const OtherForm& form) { return is_in_it(form.path); });
-  });
+  const auto is_in_it = [&](std::string_view path) { return section_of(path) == name; };
+  return any_of(all_parameters_of_drives(),
+                [&](const Parameter& parameter) { return any_of(paths_of(parameter), is_in_it); });
 }
 
 /// Removes a key under any of its names.
 void take_out(TomlDocument& document, const Parameter& parameter) {
-  document.remove(parameter.path);
-  for (const OtherForm& form : parameter.other_forms) document.remove(form.path);
+  for (const std::string_view path : paths_of(parameter)) document.remove(path);
 }
 
 /// Removes a section with its keys under any of their names ("actuator.timestep" is of [sampling]),
@@ -57,8 +51,7 @@ std::string why_unknown(const Setting& setting) {
   if (is_without || find_parameter(setting.path) != nullptr) return {};
   std::vector<std::string> paths;
   for (const Parameter& parameter : all_parameters_of_drives()) {
-    paths.emplace_back(parameter.path);
-    for (const OtherForm& form : parameter.other_forms) paths.emplace_back(form.path);
+    for (const std::string_view path : paths_of(parameter)) paths.emplace_back(path);
   }
   return "must be a parameter of a drive" + guess_of(paths, setting.path);
 }
@@ -74,8 +67,7 @@ void apply(TomlDocument& document, const Setting& setting) {
   const auto is_inverse = [&](const OtherForm& form) {
     return form.dimension != nullptr && form.path == setting.path;
   };
-  const bool is_direct =
-      std::none_of(parameter.other_forms.begin(), parameter.other_forms.end(), is_inverse);
+  const bool is_direct = !any_of(parameter.other_forms, is_inverse);
   const auto take_out = [&](std::string_view path, bool has_same_meaning) {
     if (document.remove(path) && has_same_meaning && is_direct) place = path;
   };

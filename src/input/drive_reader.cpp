@@ -1,8 +1,8 @@
 #include "input/drive_reader.hpp"
 
-#include <algorithm>
 #include <array>
 
+#include "base/lists.hpp"
 #include "input/parameter_text.hpp"
 #include "input/robot_form.hpp"
 #include "input/signal_reader.hpp"
@@ -106,16 +106,14 @@ class DriveReader {
     return variation_.paths.count(std::string(path)) > 0;
   }
   bool has_plant() const {
-    return is_robots_form() || std::any_of(plant_sections.begin(), plant_sections.end(),
-                                           [&](const char* name) { return has(name); });
+    return is_robots_form() || any_of(plant_sections, [&](const char* name) { return has(name); });
   }
   bool is_robots_form() const { return has("joint") || has("actuator"); }
 
   /// Drive::is_rounded.
   bool has_rounded_numbers() {
     if (drive().servo) return document_.has_long_decimals("servo");
-    const std::vector<Parameter>& all = all_parameters_of_drives();
-    return std::any_of(all.begin(), all.end(), [&](const Parameter& parameter) {
+    return any_of(all_parameters_of_drives(), [&](const Parameter& parameter) {
       return may_be_rounded(parameter, drive()) && document_.has_long_decimal_at(parameter.path);
     });
   }
@@ -142,13 +140,12 @@ class DriveReader {
   }
 
   void refuse_other_sections() {
-    std::vector<std::string> names;
-    for (const Section& section : all_sections()) names.emplace_back(section.name);
+    std::vector<std::string> names = of_each<std::string>(all_sections(), &Section::name);
     for (const char* other : {loop, "joint", "actuator"}) names.emplace_back(other);
     for (const auto& [key, value] : document_.root()) {
       const std::string name(key.str());
       if (name == variation_.section) continue;
-      if (std::find(names.begin(), names.end(), name) == names.end()) {
+      if (!contains(names, name)) {
         findings_.refuse(key.source().begin, shown(name), document_.written(value),
                          "is not a section: " + one_of(names, name));
       }
@@ -180,8 +177,7 @@ class DriveReader {
 
   void read_section(const Section& section) {
     const std::string name(section.name);
-    const bool is_plant =
-        std::find(plant_sections.begin(), plant_sections.end(), name) != plant_sections.end();
+    const bool is_plant = contains(plant_sections, name);
     const bool is_servo = name == "servo";
     if (is_plant && drive().servo) return;
     if (is_servo && !drive().servo) return;

@@ -34,6 +34,14 @@ Rows rows_of(std::string_view path, const toml::array& array) {
 
 }  // namespace
 
+std::vector<std::string_view> paths_of(const Parameter& parameter) {
+  std::vector<std::string_view> paths = {parameter.path};
+  for (const OtherForm& form : parameter.other_forms) paths.push_back(form.path);
+  return paths;
+}
+
+std::string_view section_of(std::string_view path) { return path.substr(0, path.find('.')); }
+
 const OtherForm* inverse_form(const Parameter& parameter) {
   for (const OtherForm& form : parameter.other_forms) {
     if (form.dimension != nullptr) return &form;

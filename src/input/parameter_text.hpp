@@ -16,6 +16,12 @@ double number_of(const Parameter& parameter, const Drive& drive, std::string_vie
 /// How its text is read if it has no unit: read_number(), or what knows where its range ends.
 NumberText number_text(const Parameter& parameter);
 
+/// Its path, then those of its other forms: all that a file may give it by.
+std::vector<std::string_view> paths_of(const Parameter& parameter);
+
+/// "motor" of "motor.inertia".
+std::string_view section_of(std::string_view path);
+
 /// The form that gives the parameter's reciprocal; nullptr if there is none.
 const OtherForm* inverse_form(const Parameter& parameter);
 

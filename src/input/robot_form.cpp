@@ -1,15 +1,15 @@
 #include "input/robot_form.hpp"
 
-#include <algorithm>
+#include "base/lists.hpp"
+#include "input/parameter_text.hpp"
 
 namespace gearlash {
 
 bool is_of_robots(std::string_view section) { return section == "joint" || section == "actuator"; }
 
 bool has_robots_form(const Parameter& parameter) {
-  return std::any_of(
-      parameter.other_forms.begin(), parameter.other_forms.end(),
-      [](const OtherForm& form) { return is_of_robots(form.path.substr(0, form.path.find('.'))); });
+  return any_of(paths_of(parameter),
+                [](std::string_view path) { return is_of_robots(section_of(path)); });
 }
 
 bool is_required_of_robots(const Parameter& parameter, std::string_view section) {

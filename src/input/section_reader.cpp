@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/lists.hpp"
 #include "question/series/distribution.hpp"
 
 namespace gearlash {
@@ -34,11 +35,9 @@ std::optional<std::string> nearest(const std::vector<std::string>& known,
                                    std::string_view written) {
   constexpr std::size_t longest_worth_a_guess = 40;
   if (written.size() > longest_worth_a_guess) return std::nullopt;
-  const auto begins = [&](const std::string& candidate) {
-    return !written.empty() && candidate.starts_with(written);
-  };
-  const auto longer = std::find_if(known.begin(), known.end(), begins);
-  if (longer != known.end()) return *longer;
+  for (const std::string& candidate : known) {
+    if (!written.empty() && candidate.starts_with(written)) return candidate;
+  }
   std::optional<std::string> best;
   std::size_t best_distance = std::max<std::size_t>(2, written.size() / 3) + 1;
   for (const std::string& candidate : known) {
@@ -59,15 +58,13 @@ double exact_number(const std::string& field, const toml::node& value,
     return floating->get() + 0.0;  // no negative zero
   }
   if (const auto* text = value.as_string()) return read_text(field, text->get());
-  throw InvalidInput({{field, "", "must be a number without unit, such as 0.25 or \"1/9\"", ""}});
+  refuse(field, "", "must be a number without unit, such as 0.25 or \"1/9\"");
 }
 
 }  // namespace
 
 std::string one_of(const std::vector<std::string>& known, std::string_view written) {
-  std::string text = "must be one of ";
-  for (const std::string& name : known) text += (&name == &known.front() ? "" : ", ") + name;
-  return text + guess_of(known, written);
+  return "must be one of " + listed(known) + guess_of(known, written);
 }
 
 std::string alternatives(const std::vector<std::string>& names) {
@@ -114,10 +111,7 @@ void Findings::take(const std::vector<Fault>& faults, Place otherwise,
 }
 
 void Findings::require_none() {
-  std::stable_sort(found_.begin(), found_.end(), [](const Found& one, const Found& other) {
-    return std::pair(one.place.line, one.place.column) <
-           std::pair(other.place.line, other.place.column);
-  });
+  sort_by(found_, [](const Found& one) { return std::pair(one.place.line, one.place.column); });
   std::vector<Fault> faults;
   for (Found& found : found_) faults.push_back(std::move(found.fault));
   gearlash::require_none(std::move(faults));
@@ -155,7 +149,7 @@ std::optional<std::string> SectionReader::choice(const std::string& key,
   const toml::node* value = required ? require(key, one_of(choices, "")) : find(key);
   if (value == nullptr) return std::nullopt;
   std::optional<std::string> text = value->value_exact<std::string>();
-  if (text && std::find(choices.begin(), choices.end(), *text) != choices.end()) {
+  if (text && contains(choices, *text)) {
     findings_.remember(field(key), *value);
     return text;
   }
@@ -257,7 +251,7 @@ bool SectionReader::is_of(const std::string& key, const Dimension& dimension) {
 void SectionReader::refuse_other_keys() {
   if (table_ == nullptr) return;
   for (const auto& [key, value] : *table_) {
-    if (std::find(known_.begin(), known_.end(), key.str()) != known_.end()) continue;
+    if (contains(known_, key.str())) continue;
     findings_.refuse(key.source().begin, field(shown(key.str())), document_.written(value),
                      "is not a key of [" + name_ + "]: " + one_of(known_, key.str()));
   }
@@ -268,7 +262,7 @@ Place SectionReader::place() const {
 }
 
 void SectionReader::know(const std::string& key) {
-  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
+  if (!contains(known_, key)) known_.push_back(key);
 }
 
 const toml::node* SectionReader::find(const std::string& key) {
@@ -293,11 +287,9 @@ Measured SectionReader::read(const std::string& key, const toml::node& value,
     const std::optional<double> number = text ? bare_number(*text) : std::nullopt;
     if (bare_numbers_ && number) return {.si = *number, .unit = std::string(expected.unit)};
     if (text) return read_quantity(name, *text, expected);
-    throw InvalidInput(
-        {{name, "",
-          "must be a text with a number and a unit of " + std::string(expected.name) +
-              ", such as \"1 " + std::string(expected.unit) + "\"",
-          ""}});
+    gearlash::refuse(name, "",
+                     "must be a text with a number and a unit of " + std::string(expected.name) +
+                         ", such as \"1 " + std::string(expected.unit) + "\"");
   };
   return read(key, value, read_exact, placeholder_quantity);
 }

@@ -5,6 +5,7 @@
 #include "input/axis_text.hpp"
 #include "input/drive_reader.hpp"
 #include "input/section_reader.hpp"
+#include "input/target_text.hpp"
 #include "input/text_file.hpp"
 #include "input/toml_document.hpp"
 #include "question/family/evaluation.hpp"
@@ -53,9 +54,7 @@ class SweepReader {
     findings_.require_none();  // the drive's required keys depend on the axes
     file.grid.drive =
         drive_of_axes(read_drive(document_, findings_, folder_, variation).drive, axes);
-    std::vector<std::string> fields;
-    for (const AxisText& axis : axes) fields.push_back(axis.field);
-    findings_.take(faults(file.grid, fields), section.place());
+    findings_.take(faults(file.grid, of_each(axes, &AxisText::field)), section.place());
     findings_.require_none();
     if (file.quantities.empty()) {
       const auto known = quantities_known(Family(file.grid).engines());
@@ -103,10 +102,7 @@ class SweepReader {
 
   std::vector<Quantity> read_quantities(SectionReader& section) {
     const std::vector<std::string> texts = section.texts("quantities");
-    std::vector<std::string> names;
-    for (const QuantityInfo& info : quantities()) {
-      if (info.quantity != Quantity::verdict) names.emplace_back(info.name);
-    }
+    const std::vector<std::string> names = names_of_quantities(QuantityKind::number);
     std::set<Quantity> asked;
     for (std::size_t i = 0; i < texts.size(); ++i) {
       const std::optional<Quantity> quantity = find_quantity(texts[i]);

@@ -108,7 +108,7 @@ class TargetReader {
       return to_si(field_, text, dimensions::angular_frequency) / (2.0 * std::numbers::pi);
     }
     if (dimension == nullptr) return read_share(field_, text);
-    if (dimension == &dimensions::angle) return read_angle(field_, text).si;
+    if (dimension == &dimensions::angle) return read_measured(field_, text, dimensions::angle).si;
     return to_si(field_, text, *dimension);
   }
 
@@ -119,6 +119,14 @@ class TargetReader {
 };
 
 }  // namespace
+
+std::vector<std::string> names_of_quantities(std::optional<QuantityKind> kind) {
+  std::vector<std::string> names;
+  for (const QuantityInfo& info : quantities()) {
+    if (!kind || info.kind == kind) names.emplace_back(info.name);
+  }
+  return names;
+}
 
 Target read_target(std::string_view field, std::string_view text, TimeScale time_scale) {
   TargetReader reader(field, time_scale);

@@ -8,6 +8,9 @@
 
 namespace gearlash {
 
+/// The names of all quantities, or those of a kind.
+std::vector<std::string> names_of_quantities(std::optional<QuantityKind> kind = {});
+
 /// Whether frequencies are defined: a normalised servo without natural_frequency has none.
 enum class TimeScale { known, unknown };
 

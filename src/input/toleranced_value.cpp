@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/lists.hpp"
 #include "input/section_reader.hpp"
 
 namespace gearlash {
@@ -27,11 +28,6 @@ std::optional<Halves> halves_of(const toml::node& value) {
                   std::string(trimmed(whole.substr(place + sign.size())))};
   }
   return std::nullopt;
-}
-
-[[noreturn]] void refuse_value(const std::string& field, const std::string& value,
-                               const std::string& permitted) {
-  throw InvalidInput({{field, value, permitted, ""}});
 }
 
 class TolerancedReader {
@@ -83,7 +79,7 @@ class TolerancedReader {
 
   double not_negative(const std::string& text, double spread) const {
     if (spread >= 0.0) return spread;
-    refuse_value(field_, text, "must not have a tolerance below zero");
+    refuse(field_, text, "must not have a tolerance below zero");
   }
 
   TolerancedValue read_table(const toml::table& table) const {
@@ -104,7 +100,7 @@ class TolerancedReader {
       middle.si = 0.5 * (*min + *max);
       return {middle, UniformBetween{*min, *max}};
     }
-    if (value == nullptr) refuse_value(field_, "", forms());
+    if (value == nullptr) refuse(field_, "", forms());
     const Measured nominal = read_exact_(field_, *value);
     if (is_between) return {nominal, UniformBetween{*min, *max}};
     if (normal != nullptr && tolerance == nullptr) {
@@ -113,12 +109,12 @@ class TolerancedReader {
     if (tolerance != nullptr && normal == nullptr && !min && !max) {
       return {nominal, UniformAbout{nominal.si, spread(*tolerance, nominal.si)}};
     }
-    refuse_value(field_, "", forms());
+    refuse(field_, "", forms());
   }
 
   TolerancedValue read_lots(const toml::node& node, const toml::table& table) const {
     const toml::array* array = node.as_array();
-    if (array == nullptr || array->empty() || table.size() > 1) refuse_value(field_, "", forms());
+    if (array == nullptr || array->empty() || table.size() > 1) refuse(field_, "", forms());
     DiscreteLots lots;
     std::vector<Measured> values;
     for (const toml::node& element : *array) {
@@ -127,7 +123,7 @@ class TolerancedReader {
       if (const toml::table* lot = element.as_table()) {
         require_keys(*lot, {"value", "weight"});
         value = lot->get("value");
-        if (value == nullptr) refuse_value(field_, "", "must have a value in each of its lots");
+        if (value == nullptr) refuse(field_, "", "must have a value in each of its lots");
         weight = lot->get("weight") == nullptr ? 1.0 : lot->get("weight")->value_or(std::nan(""));
       }
       values.push_back(read_exact_(field_, *value));
@@ -142,8 +138,8 @@ class TolerancedReader {
   void require_keys(const toml::table& table, const std::vector<std::string>& known) const {
     for (const auto& [key, node] : table) {
       const std::string name(key.str());
-      if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-      refuse_value(field_, shown(name), "must not have this key: " + one_of(known, name));
+      if (contains(known, name)) continue;
+      refuse(field_, name, "must not have this key: " + one_of(known, name));
     }
   }
 

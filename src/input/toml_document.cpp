@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "base/lists.hpp"
 #include "input/units.hpp"
 #include "input/utf8.hpp"
 
@@ -147,7 +148,7 @@ void require_parsable(std::string_view text, const std::vector<std::string_view>
 
 /// Where each character begins, and the end; none in a line of ASCII, where they are its bytes.
 std::vector<std::size_t> character_places(std::string_view line) {
-  if (std::all_of(line.begin(), line.end(), is_ascii)) return {};
+  if (all_of(line, is_ascii)) return {};
   std::vector<std::size_t> places;
   std::string_view rest = line;
   do {
@@ -280,13 +281,11 @@ std::string TomlDocument::number_text(const toml::node& node) const {
 }
 
 bool TomlDocument::is_long(const toml::node& node) const {
-  const auto is_long_node = [&](const toml::node& other) { return is_long(other); };
   if (const toml::table* table = node.as_table()) {
-    return std::any_of(table->cbegin(), table->cend(),
-                       [&](const auto& entry) { return is_long(entry.second); });
+    return any_of(*table, [&](const auto& entry) { return is_long(entry.second); });
   }
   if (const toml::array* array = node.as_array()) {
-    return std::any_of(array->cbegin(), array->cend(), is_long_node);
+    return any_of(*array, [&](const toml::node& other) { return is_long(other); });
   }
   if (const auto* text = node.as_string()) return has_long_decimal(text->get());
   return node.is_number() && node.source().begin.line > 0 && has_long_decimal(source_of(node));
@@ -299,10 +298,9 @@ bool TomlDocument::has_long_decimal_at(std::string_view path) const {
 
 bool TomlDocument::has_long_decimals(std::string_view section) const {
   const toml::table* table = root_[section].as_table();
-  if (table == nullptr) return false;
-  return std::any_of(table->cbegin(), table->cend(), [&](const auto& entry) {
-    return has_long_decimal_at(std::string(section) + "." + std::string(entry.first.str()));
-  });
+  return table != nullptr && any_of(*table, [&](const auto& entry) {
+           return has_long_decimal_at(std::string(section) + "." + std::string(entry.first.str()));
+         });
 }
 
 namespace {

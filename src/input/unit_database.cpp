@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <span>
@@ -30,6 +29,7 @@ struct RunTogether {
 // Generated when the project is built, from UDUNITS-2's database and units_of_engineers.txt:
 //   named_units (in lower case, sorted), unit_symbols (sorted), name_prefixes (in lower case) and
 //   symbol_prefixes (the longest first), run_together, run_together_prefixes
+#include "base/lists.hpp"
 #include "input/unit_table.inc"
 
 /// Of the factors in the table: at most 3.2 of all its 839 words (tests/scripts).
@@ -55,10 +55,7 @@ const Unit* find_in(std::span<const NamedUnit> units, std::string_view word) {
 }
 
 const Prefix* find_prefix(std::span<const Prefix> prefixes, std::string_view word) {
-  const auto found = std::find_if(prefixes.begin(), prefixes.end(), [&](const Prefix& prefix) {
-    return word.starts_with(prefix.word);
-  });
-  return found != prefixes.end() ? &*found : nullptr;
+  return first_of(prefixes, [&](const Prefix& prefix) { return word.starts_with(prefix.word); });
 }
 
 /// UDUNITS-2's rule: look up the whole word, then the remainder after each prefix, each first as a
@@ -102,10 +99,7 @@ std::vector<Unit> find_run_together(std::string_view word) {
   for (const RunTogether& entry : run_together) {
     if (!word.ends_with(entry.word)) continue;
     const std::string prefix(word.substr(0, word.size() - entry.word.size()));
-    if (std::find(run_together_prefixes.begin(), run_together_prefixes.end(), prefix) ==
-        run_together_prefixes.end()) {
-      continue;
-    }
+    if (!contains(run_together_prefixes, prefix)) continue;
     std::vector<Unit> units;
     for (const std::string_view part : entry.parts) {
       if (part.empty()) break;

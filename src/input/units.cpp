@@ -253,11 +253,11 @@ std::uint64_t read_whole(std::string_view field, std::string_view text, std::uin
          "must be a whole number from " + std::to_string(least) + " to " + std::to_string(most));
 }
 
-Measured read_angle(std::string_view field, std::string_view text) {
+Measured read_measured(std::string_view field, std::string_view text, const Dimension& expected) {
   const std::optional<double> bare = bare_number(text);
-  if (!bare) return read_quantity(field, text, dimensions::angle);
+  if (!bare) return read_quantity(field, text, expected);
   if (!std::isfinite(*bare)) refuse(field, text, "must be finite");
-  return {.si = *bare, .unit_in_si = 1.0, .unit = "rad"};
+  return {.si = *bare, .unit = std::string(expected.unit)};
 }
 
 std::string shown(std::string_view text, std::size_t limit) {

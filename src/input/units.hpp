@@ -62,9 +62,9 @@ bool has_long_decimal(std::string_view written);
 std::uint64_t read_whole(std::string_view field, std::string_view text, std::uint64_t least,
                          std::uint64_t most);
 
-/// Reads a finite angle: a number in radians, or a number with its unit ("12 arcmin"). Throws as
-/// read_number() and read_quantity() do.
-Measured read_angle(std::string_view field, std::string_view text);
+/// Reads a finite number in SI, or one with its unit ("12 arcmin"). Throws as read_number() and
+/// read_quantity() do.
+Measured read_measured(std::string_view field, std::string_view text, const Dimension& expected);
 
 /// The author's text, fit for one line of an error: control characters and invalid UTF-8 are
 /// escaped, empty or blank text is quoted, and text beyond `limit` characters becomes "…".

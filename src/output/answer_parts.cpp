@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/lists.hpp"
 #include "model/reduced_drive.hpp"
 #include "model/signal.hpp"
 #include "output/columns.hpp"
@@ -141,21 +142,19 @@ std::string meaning_by_energy(const Answer& answer) {
 /// "24 to a cycle, 12 to rest".
 std::string ends_text(const Answer& answer) {
   const SearchRecord& search = *answer.search;
-  const auto repeating = static_cast<std::size_t>(
-      std::count_if(search.starts.begin(), search.starts.end(), [&](const StartOutcome& start) {
-        return start.end == "irregular" && start.which && answer.irregular[*start.which].repeats();
-      }));
-  std::string text;
-  const auto add = [&](std::size_t count, const char* what) {
-    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
-  };
-  add(search.count("cycle"), "to a cycle");
-  add(search.count("rest"), "to rest");
-  add(repeating, "to motion whose swings repeat");
-  add(search.count("irregular") - repeating, "to motion that was not seen to repeat");
-  add(search.count("diverges"), "to runaway");
-  add(search.count("undecided"), "undecided");
-  return text;
+  const std::size_t repeating = count_of(search.starts, [&](const StartOutcome& start) {
+    return start.end == "irregular" && start.which && answer.irregular[*start.which].repeats();
+  });
+  const std::pair<std::size_t, const char*> ends[] = {
+      {search.count("cycle"), "to a cycle"},
+      {search.count("rest"), "to rest"},
+      {repeating, "to motion whose swings repeat"},
+      {search.count("irregular") - repeating, "to motion that was not seen to repeat"},
+      {search.count("diverges"), "to runaway"},
+      {search.count("undecided"), "undecided"}};
+  return listed(ends, [](const auto& end) {
+    return end.first == 0 ? "" : fmt::format("{} {}", end.first, end.second);
+  });
 }
 
 std::string search_text(const AnswerReport& report) {
@@ -177,9 +176,9 @@ std::string search_text(const AnswerReport& report) {
       "{}: {}. Shooting closed the cycles. ",
       starts_text(search.starts.size()), units.angle(nearest), units.angle(farthest),
       units.time(longest), ends_text(report.answer));
-  const auto found =
-      std::count_if(report.answer.cycles.begin(), report.answer.cycles.end(),
-                    [](const Cycle& cycle) { return cycle.stability == Stability::unstable; });
+  const std::size_t found = count_of(report.answer.cycles, [](const Cycle& cycle) {
+    return cycle.stability == Stability::unstable;
+  });
   text += search.borders == 0
               ? "No border between starts with different ends had to be searched. "
               : fmt::format(
@@ -336,9 +335,7 @@ std::vector<MotionBesideMeasured> AnswerReport::beside_measured() const {
     if (!motion.mean_period || motion.is_motor_alone) continue;
     add("irregular", i, motion.amplitude, 1.0 / *motion.mean_period);
   }
-  std::stable_sort(all.begin(), all.end(), [](const auto& one, const auto& other) {
-    return distance(one) < distance(other);
-  });
+  sort_by(all, distance);
   return all;
 }
 

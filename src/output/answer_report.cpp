@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <ostream>
 
+#include "base/lists.hpp"
 #include "gearlash/output.hpp"
 #include "gearlash/version.hpp"
 #include "model/gains.hpp"
@@ -299,23 +301,22 @@ std::string normal_form_table(const AnswerReport& report) {
 /// The gains of a torque-controlled drive at both shafts.
 std::string gains_table(const AnswerReport& report) {
   const AnswerUnits units(report);
-  TextRows rows;
-  for (const PlacedGain& gain : placed_gains(report.drive)) {
-    rows.push_back({std::string(gain.path.substr(gain.path.find('.') + 1)),
-                    fmt::format("{} {} at the joint", units.number(gain.at_joint), gain.unit),
-                    fmt::format("{} {} at the motor", units.number(gain.at_motor), gain.unit)});
-  }
+  const TextRows rows = of_each(placed_gains(report.drive), [&](const PlacedGain& gain) -> TextRow {
+    return {std::string(gain.path.substr(gain.path.find('.') + 1)),
+            fmt::format("{} {} at the joint", units.number(gain.at_joint), gain.unit),
+            fmt::format("{} {} at the motor", units.number(gain.at_motor), gain.unit)};
+  });
   return rows.empty() ? "" : "\nGains, as torque per angle of the same shaft\n" + table_text(rows);
 }
 
 /// Hints at results that further options add.
 std::string offer_text(const AnswerReport& report) {
-  std::string text;
-  if (!report.margin) text += "--margins adds how far each parameter is from the limit of hunting";
-  if (!report.sensitivity) {
-    text += std::string(text.empty() ? "" : "; ") +
-            "--sensitivities adds what the amplitude depends on";
-  }
+  const std::string text = listed(
+      std::array{report.margin ? ""
+                               : "--margins adds how far each parameter is from the limit of "
+                                 "hunting",
+                 report.sensitivity ? "" : "--sensitivities adds what the amplitude depends on"},
+      std::identity(), "; ");
   return further_paragraph(text.empty() ? "" : "Not shown: " + text + ".");
 }
 
@@ -348,12 +349,9 @@ AnswerReport report_of(const Drive& drive, const Answer& answer, const AngleUnit
 }
 
 std::vector<ParameterFacts> AnswerReport::parameters() const {
-  std::vector<ParameterFacts> all;
-  if (!margin) return all;
-  for (const ParameterMargin& one : margin->parameters) {
-    all.push_back(facts_of(drive, one.parameter));
-  }
-  return all;
+  if (!margin) return {};
+  return of_each(margin->parameters,
+                 [&](const ParameterMargin& one) { return facts_of(drive, one.parameter); });
 }
 
 AnswerReport report_of(const Drive& drive, const Answer& answer) {

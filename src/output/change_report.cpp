@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/lists.hpp"
 #include "output/columns.hpp"
 #include "output/parameter_text.hpp"
 
@@ -39,40 +40,28 @@ std::string border_text(const ParameterText& text, const ParameterMargin& margin
   return margin.present > 0.0 ? shown + " (" + change_text(*value / margin.present) + ")" : shown;
 }
 
-std::string choices_text(const ParameterText& text, const ParameterMargin& margin) {
-  std::string choices;
-  for (const double choice : margin.choices) {
-    choices += (choices.empty() ? "" : ", ") + text.of(choice);
-  }
-  return choices;
-}
-
 std::string combined_text(const HuntingMargin& margin) {
   if (!margin.combined) return "";
   const CombinedMargin& combined = *margin.combined;
-  std::string changes;
-  std::size_t changed = 0;
+  std::vector<std::string> changes;
   for (std::size_t i = 0; i < combined.parameters.size(); ++i) {
     if (combined.factors[i] == 1.0) continue;
-    ++changed;
-    changes += (changes.empty() ? "" : ", ") + combined.parameters[i] + " " +
-               change_text(combined.factors[i]);
+    changes.push_back(combined.parameters[i] + " " + change_text(combined.factors[i]));
   }
-  if (changed == 1) {
-    return "No combined change was found that is smaller than that of one alone: " + changes + ".";
-  }
-  return "Smallest combined change found: " + changes + ".";
+  return (changes.size() == 1
+              ? "No combined change was found that is smaller than that of one alone: "
+              : "Smallest combined change found: ") +
+         listed(changes) + ".";
 }
 
 std::string undecided_text(const Drive& drive, const HuntingMargin& margin,
                            const AngleUnit& angle) {
-  std::string parts;
-  for (const ParameterMargin& one : margin.parameters) {
+  const auto parts_of = [&](const ParameterMargin& one) {
     const ParameterText text(drive, one.parameter, angle);
-    for (const Bounds& part : one.undecided) {
-      parts += (parts.empty() ? "" : "; ") + one.parameter + " " + text.of(part);
-    }
-  }
+    const auto named = [&](const Bounds& part) { return one.parameter + " " + text.of(part); };
+    return listed(one.undecided, named, "; ");
+  };
+  const std::string parts = listed(margin.parameters, parts_of, "; ");
   return parts.empty() ? "" : " Undecided: " + parts + ".";
 }
 
@@ -91,10 +80,10 @@ std::string search_text(const Drive& drive, const HuntingMargin& margin, const A
 
 /// What a scan leaves open, where faces bounce.
 std::string scanned_text(const HuntingMargin& margin) {
-  const bool is_scanned =
-      std::any_of(margin.parameters.begin(), margin.parameters.end(),
-                  [](const ParameterMargin& one) { return one.kind == SearchKind::scanned; });
-  if (!is_scanned) return "";
+  const auto is_scanned = [](const ParameterMargin& one) {
+    return one.kind == SearchKind::scanned;
+  };
+  if (!any_of(margin.parameters, is_scanned)) return "";
   return std::string(
              "With bounces, the values above come from a scan and are not proved to be the "
              "nearest. "
@@ -121,13 +110,12 @@ std::vector<std::size_t> by_falling_effect(const Jacobian& sensitivity) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   const Quantity quantity = quantity_of_effect(sensitivity);
   // Equal ones differ in what is beyond the accuracy of differences.
-  const auto effect = [&](std::size_t parameter) {
+  const auto falling_effect = [&](std::size_t parameter) {
     constexpr double known_parts = 1e6;
-    return std::round(known_parts *
-                      std::abs(elasticity_of(sensitivity, quantity, parameter).value_or(0.0)));
+    return -std::round(known_parts *
+                       std::abs(elasticity_of(sensitivity, quantity, parameter).value_or(0.0)));
   };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return effect(a) > effect(b); });
+  sort_by(order, falling_effect);
   return order;
 }
 
@@ -137,7 +125,9 @@ std::string margin_text(const Drive& drive, const HuntingMargin& margin, const A
     const ParameterText text(drive, one.parameter, angle);
     if (one.choices.empty() && !one.below && !one.above) continue;
     rows.push_back({one.parameter, text.of(one.present), border_text(text, one, one.below),
-                    text.is_word() ? choices_text(text, one) : border_text(text, one, one.above)});
+                    text.is_word()
+                        ? listed(one.choices, [&](double choice) { return text.of(choice); })
+                        : border_text(text, one, one.above)});
   }
   const bool is_closed = margin.overall.has_value();
   const std::string what = !margin.is_known ? "Where it is known to come to rest"
@@ -159,9 +149,8 @@ std::string sensitivity_text(const Jacobian& sensitivity) {
   const std::string& why = sensitivity.reason;
   std::string text = "Sensitivities: per cent for one per cent more";
   text += why.empty() ? "\n" : "; " + why + "\n";
-  const bool has_any = std::any_of(sensitivity.slopes.begin(), sensitivity.slopes.end(),
-                                   [](const auto& slope) { return slope.has_value(); });
-  if (!has_any) return text;
+  const auto is_known = [](const auto& slope) { return slope.has_value(); };
+  if (!any_of(sensitivity.slopes, is_known)) return text;
   std::vector<Quantity> columns;
   TextRows rows = {{"number"}};
   for (const Quantity quantity : sensitivity.quantities) {

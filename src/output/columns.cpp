@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <sstream>
 
+#include "base/lists.hpp"
+
 namespace gearlash {
 
 std::size_t width_in_columns(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
-  }));
+  return count_of(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; });
 }
 
 std::string table_text(const TextRows& rows) {
@@ -46,10 +46,7 @@ std::string wrapped(const std::string& paragraph, std::size_t columns, const std
 }
 
 std::string sentences(const std::vector<std::string>& parts) {
-  std::string paragraph;
-  for (const std::string& part : parts) {
-    if (!part.empty()) paragraph += part + " ";
-  }
+  const std::string paragraph = listed(parts, std::identity(), " ");
   return paragraph.empty() ? "" : wrapped(paragraph);
 }
 

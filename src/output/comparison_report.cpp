@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/lists.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/answer_report.hpp"
 #include "output/columns.hpp"
@@ -19,24 +20,11 @@ AnswerReport answer_report_of(const ComparisonReport& report, std::size_t i) {
   return report_of(one.drive, *one.answer, report.angles[i], report.provenance);
 }
 
-/// The unit of a column of the table, and what it is in SI.
-struct ColumnUnit {
-  std::string name{};
-  double size = 1.0;
-};
-
-/// Times are in 1/ω_n where no drive has another time.
-ColumnUnit unit_shown(const ComparisonReport& report, Quantity quantity) {
-  const std::string unit(info_of(quantity).unit);
-  const AngleUnit& angle = report.angles.front();
+/// Of a column of the table.
+DrawnUnit unit_shown(const ComparisonReport& report, Quantity quantity) {
   if (quantity == Quantity::phase_margin) return {"deg", std::numbers::pi / 180.0};
-  if (unit == "rad") return {angle.name, angle.radians};
   if (quantity == Quantity::overshoot) return {"%", 0.01};
-  const bool is_free = is_normalized(report);
-  if (is_free && unit == "s") return {"1/ω_n", 1.0};
-  if (is_free && unit == "Hz") return {"ω_n", 0.5 / std::numbers::pi};
-  if (is_free && unit == "rad/s") return {"rad ω_n", 1.0};
-  return {unit == "1" ? "" : unit, 1.0};
+  return drawn_unit(quantity, report.angles.front(), is_normalized(report));
 }
 
 // ---- the table ----------------------------------------------------------------------------------
@@ -48,12 +36,8 @@ TextRow row_of(const ComparisonReport& report, std::string name, const Cell& cel
   return row;
 }
 
-std::string name_with_unit(const std::string& name, const std::string& unit) {
-  return unit.empty() ? name : name + " (" + unit + ")";
-}
-
 TextRow row_of(const ComparisonReport& report, Quantity quantity) {
-  const ColumnUnit unit = unit_shown(report, quantity);
+  const DrawnUnit unit = unit_shown(report, quantity);
   const bool is_word = info_of(quantity).kind == QuantityKind::choice;
   return row_of(report, name_with_unit(words_of(quantity), unit.name),
                 [&](const ComparedDrive& one) {
@@ -82,7 +66,7 @@ TextRows rows_of(const ComparisonReport& report) {
     }));
   }
   const auto has_encoder = [](const ComparedDrive& one) { return one.encoder_step > 0.0; };
-  if (std::any_of(report.drives.begin(), report.drives.end(), has_encoder)) {
+  if (any_of(report.drives, has_encoder)) {
     rows.push_back(row_of(report, name_with_unit("encoder step at the load", angle.name),
                           [&](const ComparedDrive& one) {
                             return significant(angle.from_radians(one.encoder_step), usual_digits);
@@ -97,11 +81,8 @@ TextRows rows_of(const ComparisonReport& report) {
 /// "load, motor": those of which it holds.
 template <class Holds>
 std::string names_where(const ComparisonReport& report, const Holds& holds) {
-  std::string names;
-  for (const ComparedDrive& one : report.drives) {
-    if (one.answer && holds(one)) names += (names.empty() ? "" : ", ") + one.name;
-  }
-  return names;
+  return listed(report.drives,
+                [&](const ComparedDrive& one) { return one.answer && holds(one) ? one.name : ""; });
 }
 
 std::string unstable_text(const ComparisonReport& report) {
@@ -117,16 +98,15 @@ std::string unstable_text(const ComparisonReport& report) {
 /// registers count turns of the shaft that is sensed.
 std::string rescaled_text(const ComparisonReport& report) {
   const ComparedDrive& first = report.drives.front();
-  std::string list;
-  for (const ComparedDrive& one : report.drives) {
+  const std::string list = listed(report.drives, [&](const ComparedDrive& one) -> std::string {
     const bool is_moved = one.drive.sensor.position != first.drive.sensor.position &&
                           one.drive.controller == first.drive.controller;
-    if (!is_moved || !one.stiffness || !first.stiffness) continue;
+    if (!is_moved || !one.stiffness || !first.stiffness) return "";
     const double factor = *one.stiffness / *first.stiffness;
     constexpr double rounding = 1e-9;
-    if (std::abs(factor - 1.0) <= rounding) continue;
-    list += (list.empty() ? "" : ", ") + one.name + " ×" + significant(factor, usual_digits);
-  }
+    if (std::abs(factor - 1.0) <= rounding) return "";
+    return one.name + " ×" + significant(factor, usual_digits);
+  });
   if (list.empty()) return "";
   return "The controller's numbers count angles of the shaft that is sensed. So moving the sensor "
          "changes the loop stiffness from that with " +
@@ -136,8 +116,7 @@ std::string rescaled_text(const ComparisonReport& report) {
 std::string step_text(const ComparisonReport& report) {
   const auto is_of_step = [](Quantity one) { return info_of(one).scope == QuantityScope::step; };
   const std::optional<double> step = step_of(report);
-  const bool is_shown = std::any_of(report.quantities.begin(), report.quantities.end(), is_of_step);
-  if (!step || !is_shown) return "";
+  if (!step || !any_of(report.quantities, is_of_step)) return "";
   const std::string names = names_where(report, [](const ComparedDrive& one) {
     return one.answer->step && !one.answer->step->is_whole;
   });
@@ -168,8 +147,7 @@ std::string in_blocks(const TextRows& rows) {
   };
   std::string text;
   for (std::size_t first = 1; first < rows.front().size();) {
-    TextRows block;
-    for (const TextRow& row : rows) block.push_back({row.front()});
+    TextRows block = of_each(rows, [](const TextRow& row) { return TextRow{row.front()}; });
     std::size_t taken = width(0);
     do {
       for (std::size_t i = 0; i < rows.size(); ++i) block[i].push_back(rows[i][first]);
@@ -190,8 +168,7 @@ std::vector<Quantity> usual_quantities_compared() {
 }
 
 bool is_normalized(const ComparisonReport& report) {
-  return std::all_of(report.drives.begin(), report.drives.end(),
-                     [](const ComparedDrive& one) { return is_normalized(one.drive); });
+  return all_of(report.drives, [](const ComparedDrive& one) { return is_normalized(one.drive); });
 }
 
 std::optional<double> step_of(const ComparisonReport& report) {

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "base/lists.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/answer_report.hpp"
 #include "output/columns.hpp"
@@ -46,8 +46,7 @@ bool is_forced(const DescribeReport& report) { return report.answer.verdict == V
 /// The text for a stable predicted cycle without an exact motion near it.
 std::string without_exact(const DescribeReport& report, const std::vector<ExactMotion>& exact) {
   if (report.answer.verdict == Verdict::undecided) return "undecided";
-  const bool has_stable = std::any_of(exact.begin(), exact.end(),
-                                      [](const ExactMotion& motion) { return motion.is_stable; });
+  const bool has_stable = any_of(exact, [](const ExactMotion& motion) { return motion.is_stable; });
   return has_stable ? "no stable motion near it" : "no stable cycle";
 }
 
@@ -72,9 +71,9 @@ std::string cycle_table(const DescribingAnalysis& analysis, const DescribeReport
 }
 
 bool has_cycle_to_tell(const DescribingAnalysis& analysis, const DescribeReport& report) {
-  return !std::all_of(
-      analysis.cycles.begin(), analysis.cycles.end(),
-      [&](const DescribedMotion& cycle) { return drive::is_unseen(cycle, report.backlash); });
+  return any_of(analysis.cycles, [&](const DescribedMotion& cycle) {
+    return !drive::is_unseen(cycle, report.backlash);
+  });
 }
 
 /// "s² + 0.38 s + 5".
@@ -124,11 +123,9 @@ std::string unresolved_text(const DescribingAnalysis& analysis) {
 }
 
 std::string assumptions_text(const DescribingAnalysis& analysis) {
-  std::string text;
-  for (const drive::Assumption assumption : analysis.assumptions) {
-    text += (text.empty() ? "Assumed: " : "; ") + std::string(name_of(assumption));
-  }
-  return text.empty() ? "" : text + ".";
+  const std::string text = listed(
+      analysis.assumptions, [](drive::Assumption one) { return name_of(one); }, "; ");
+  return text.empty() ? "" : "Assumed: " + text + ".";
 }
 
 std::string analysis_text(const DescribingAnalysis& analysis, const DescribeReport& report) {

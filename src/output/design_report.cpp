@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "base/lists.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/columns.hpp"
 #include "question/change/proved_values.hpp"
@@ -127,12 +127,12 @@ std::string reason(const DesignReport& report, const DesignedParameter& paramete
 }
 
 std::string reasons(const DesignReport& report) {
-  std::string text;
-  for (const DesignedParameter& parameter : report.design.parameters) {
+  const auto line = [&](const DesignedParameter& parameter) {
     const FeasibleValues& values = parameter.values;
-    if (!values.intervals.empty() || values.stopped) continue;
-    text += "  " + values.parameter + ": " + reason(report, parameter) + "\n";
-  }
+    const bool has_none = values.intervals.empty() && !values.stopped;
+    return has_none ? "  " + values.parameter + ": " + reason(report, parameter) + "\n" : "";
+  };
+  const std::string text = listed(report.design.parameters, line, "");
   return text.empty() ? "" : "No value meets the target\n" + text + "\n";
 }
 
@@ -212,22 +212,11 @@ std::string proofs_text(const DesignReport& report) {
     }
   }
   if (text.empty()) return "";
-  const bool is_all =
-      std::all_of(report.target.limits.begin(), report.target.limits.end(), &is_provable) &&
-      !report.target.no_hunting && !report.target.no_hunting_if_disturbed &&
-      !report.target.no_runaway;
+  const bool is_all = all_of(report.target.limits, &is_provable) && !report.target.no_hunting &&
+                      !report.target.no_hunting_if_disturbed && !report.target.no_runaway;
   return (is_all ? "Every value of these parts meets the target\n"
                  : "Every value of these parts keeps the limits of ceilings\n") +
          text + "\n";
-}
-
-/// "bandwidth, phase margin".
-std::string names_of(const Target& limits) {
-  std::string names;
-  for (const QuantityLimit& limit : limits.limits) {
-    names += (names.empty() ? "" : ", ") + words_of(limit.quantity);
-  }
-  return names;
 }
 
 /// Whether the motion was searched at all, and not figures alone.
@@ -242,13 +231,12 @@ bool is_empty_range(const FeasibleValues& values) {
 
 /// The parameters that were searched in this way: "load.friction, gearbox.ratio".
 std::string names_of(const DesignReport& report, SearchKind kind) {
-  std::string names;
-  for (const DesignedParameter& parameter : report.design.parameters) {
+  return listed(report.design.parameters, [&](const DesignedParameter& parameter) {
     const FeasibleValues& values = parameter.values;
-    if (values.kind != kind || is_empty_range(values) || is_of_figures(report, values)) continue;
-    names += (names.empty() ? "" : ", ") + parameter.values.parameter;
-  }
-  return names;
+    const bool is_one =
+        values.kind == kind && !is_empty_range(values) && !is_of_figures(report, values);
+    return is_one ? values.parameter : "";
+  });
 }
 
 std::string certified_text(const DesignReport& report) {
@@ -301,21 +289,22 @@ std::string within_text(const DesignReport& report) {
     const FeasibleValues& values = parameter.values;
     if (is_empty(values.searched_within)) continue;
     const std::string where = is_of_figures(report, values) ? "" : " within these";
-    return "These are computed at many values" + where +
-           ", not bounded over them: " + names_of(values.searched_within) +
+    return "These are computed at many values" + where + ", not bounded over them: " +
+           listed(values.searched_within.limits,
+                  [](const QuantityLimit& limit) { return words_of(limit.quantity); }) +
            ". What is narrower than the distance of two values may be missed.";
   }
   return "";
 }
 
 std::string stopped_searches(const DesignReport& report) {
-  std::string text;
-  for (const DesignedParameter& parameter : report.design.parameters) {
-    if (!parameter.values.stopped) continue;
-    text += "The search over " + parameter.values.parameter +
-            " was stopped: the values that it did not reach are undecided. ";
-  }
-  return text;
+  const auto text = [](const DesignedParameter& parameter) {
+    return parameter.values.stopped
+               ? "The search over " + parameter.values.parameter +
+                     " was stopped: the values that it did not reach are undecided."
+               : "";
+  };
+  return listed(report.design.parameters, text, " ");
 }
 
 std::string certainty(const DesignReport& report) {
@@ -339,11 +328,9 @@ std::string design_text(const DesignReport& report) {
 }
 
 std::vector<ParameterFacts> DesignReport::parameters() const {
-  std::vector<ParameterFacts> all;
-  for (const DesignedParameter& one : design.parameters) {
-    all.push_back(facts_of(drive, one.values.parameter));
-  }
-  return all;
+  return of_each(design.parameters, [&](const DesignedParameter& one) {
+    return facts_of(drive, one.values.parameter);
+  });
 }
 
 }  // namespace gearlash

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/decimal.hpp"
+#include "base/lists.hpp"
 #include "base/overloaded.hpp"
 #include "base/range_check.hpp"
 #include "input/utf8.hpp"
@@ -38,11 +39,7 @@ std::string bare_text(double value, Decimals decimals = Decimals::shortest) {
 }
 
 std::string list_text(const std::vector<double>& numbers, Decimals decimals) {
-  std::string text = "[";
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    text += (i == 0 ? "" : ", ") + bare_text(numbers[i], decimals);
-  }
-  return text + "]";
+  return "[" + listed(numbers, [&](double one) { return bare_text(one, decimals); }) + "]";
 }
 
 std::string number_text(double value, const Dimension* dimension,
@@ -73,14 +70,6 @@ ParameterValue value_of(const Parameter& parameter, const Drive& drive) {
   return number ? ParameterValue(*number) : ParameterValue();
 }
 
-std::string text_of_rows(const Rows& rows, Decimals decimals) {
-  std::string text = "[";
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    text += (i == 0 ? "" : ", ") + list_text(rows[i], decimals);
-  }
-  return text + "]";
-}
-
 /// The value as TOML; empty if it is not given and has no default.
 std::string value_text(const Parameter& parameter, const Drive& drive) {
   const Decimals decimals = decimals_of(parameter, drive);
@@ -90,7 +79,10 @@ std::string value_text(const Parameter& parameter, const Drive& drive) {
           [&](double number) { return number_text(number, parameter.dimension(drive), decimals); },
           [](const std::string& text) { return text.empty() ? "" : toml_text(text); },
           [&](const std::vector<double>& list) { return list_text(list, decimals); },
-          [&](const Rows& rows) { return text_of_rows(rows, decimals); }},
+          [&](const Rows& rows) {
+            return "[" + listed(rows, [&](const auto& row) { return list_text(row, decimals); }) +
+                   "]";
+          }},
       value_of(parameter, drive));
 }
 
@@ -125,12 +117,10 @@ std::string toleranced_text(const Distribution& varies, const Parameter& paramet
                        number(normal->standard_deviation), end("min", normal->min),
                        end("max", normal->max));
   }
-  std::string lots;
-  for (const Lot& lot : std::get<DiscreteLots>(varies).lots) {
-    lots += fmt::format("{}{{ value = {}, weight = {} }}", lots.empty() ? "" : ", ",
-                        number(lot.value), bare_text(lot.weight));
-  }
-  return fmt::format("{{ lots = [{}] }}", lots);
+  const auto lot_text = [&](const Lot& lot) {
+    return fmt::format("{{ value = {}, weight = {} }}", number(lot.value), bare_text(lot.weight));
+  };
+  return fmt::format("{{ lots = [{}] }}", listed(std::get<DiscreteLots>(varies).lots, lot_text));
 }
 
 /// A drive with the same parts and kinds, and defaults for everything else.
@@ -225,13 +215,13 @@ namespace {
 
 /// The gains at both shafts, and what the drive's answers note.
 std::string further_remarks(const Drive& drive) {
-  std::string gains;
-  for (const PlacedGain& gain : placed_gains(drive)) {
-    gains += fmt::format("{} {} {:.4g} {} at the joint, {:.4g} {} at the motor",
-                         gains.empty() ? "Gains:" : ";", gain.path.substr(gain.path.find('.') + 1),
-                         gain.at_joint, gain.unit, gain.at_motor, gain.unit);
-  }
-  std::string remarks = gains.empty() ? "" : wrapped(gains + ".", usual_columns, "# ");
+  const auto gain_text = [](const PlacedGain& gain) {
+    return fmt::format("{} {:.4g} {} at the joint, {:.4g} {} at the motor",
+                       gain.path.substr(gain.path.find('.') + 1), gain.at_joint, gain.unit,
+                       gain.at_motor, gain.unit);
+  };
+  const std::string gains = listed(placed_gains(drive), gain_text, "; ");
+  std::string remarks = gains.empty() ? "" : wrapped("Gains: " + gains + ".", usual_columns, "# ");
   for (const Note& note : notes_on(drive)) remarks += wrapped(note.text, usual_columns, "# ");
   return remarks;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/lists.hpp"
 #include "gearlash/parameter.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/grid_table.hpp"
@@ -50,10 +51,9 @@ std::vector<std::pair<std::string, std::string>> attributes_of_file(const GridCo
 }
 
 std::vector<NetcdfDimension> describe_axes(NetcdfFile& file, const Grid& grid) {
-  std::vector<NetcdfDimension> dimensions;
-  for (const Axis& axis : grid.axes) {
-    dimensions.push_back(file.add_dimension(column_name(axis.path), axis.values.size()));
-  }
+  std::vector<NetcdfDimension> dimensions = of_each(grid.axes, [&](const Axis& axis) {
+    return file.add_dimension(column_name(axis.path), axis.values.size());
+  });
   for (std::size_t i = 0; i < grid.axes.size(); ++i) {
     const NamedParameter parameter = named_parameter(grid.axes[i], grid.drive);
     const NetcdfVariable variable =

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/lists.hpp"
 #include "output/netcdf_file.hpp"
 #include "output/output_file.hpp"
 #include "question/map/hunting_boundary.hpp"
@@ -120,7 +121,7 @@ class GridFile {
       const bool is_free = name == "history";  // the command may spell its file names differently
       if (!is_free && file_.attribute_of_file(name) != text) return false;
     }
-    return std::all_of(grid_.axes.begin(), grid_.axes.end(), [&](const Axis& axis) {
+    return all_of(grid_.axes, [&](const Axis& axis) {
       std::vector<double> values(axis.values.size());
       file_.read(file_.variable(column_name(axis.path)), {{0}, {values.size()}}, values);
       return values == axis.values;
@@ -210,17 +211,14 @@ class GridFile {
 
   void write_target(Connection& parent) {
     constexpr std::array words = {PlaceKind::not_known, PlaceKind::missed, PlaceKind::met};
-    std::vector<std::string> meanings;
-    for (const PlaceKind word : words) meanings.push_back(one_word(name_of(word)));
+    const auto meanings = of_each(words, [](PlaceKind word) { return one_word(name_of(word)); });
     file_.resume_description();
     const NetcdfVariable variable =
         file_.add_flags("target", dimensions_, "whether the drive meets the target", meanings);
     file_.end_description();
-    std::vector<signed char> flags;
-    for (const PlaceKind kind : parent.receive_list<PlaceKind>()) {
-      flags.push_back(
-          static_cast<signed char>(std::find(words.begin(), words.end(), kind) - words.begin()));
-    }
+    const auto flags = of_each(parent.receive_list<PlaceKind>(), [&](PlaceKind kind) {
+      return static_cast<signed char>(std::find(words.begin(), words.end(), kind) - words.begin());
+    });
     const NetcdfBox box = box_of(grid_, 0, grid_.size());
     file_.write(variable, box, flags);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/lists.hpp"
 #include "output/csv_table.hpp"
 #include "question/map/hunting_boundary.hpp"
 
@@ -82,13 +83,12 @@ ByName<ParameterValue> fixed_parameters(const Grid& grid) {
 void write_grid_csv(const GridTable& table, const TextSink& sink) {
   const std::vector<Axis>& axes = table.grid.axes;
   const std::vector<Quantity> numbers = quantities_of(table.table);
-  std::vector<std::string> names;
-  for (const Axis& axis : axes) names.push_back(column_name(axis.path));
+  auto names = of_each(axes, [](const Axis& axis) { return column_name(axis.path); });
   names.emplace_back("verdict");
   if (table.target) names.emplace_back("target");
   for (const Quantity quantity : numbers) names.emplace_back(name_of(quantity));
-  std::vector<bool> are_words;
-  for (const Axis& axis : axes) are_words.push_back(unit_of(axis, table.grid.drive).empty());
+  const auto are_words =
+      of_each(axes, [&](const Axis& axis) { return unit_of(axis, table.grid.drive).empty(); });
   CsvTable csv(sink, names);
   for (std::size_t row = 0; row < table.table.rows(); ++row) {
     const std::vector<double> values = values_at(table.grid, row);
@@ -116,8 +116,7 @@ GridDocument document_of(const GridTable& of) {
   for (const Axis& axis : grid.axes) document.axes.push_back(document_of(axis, grid.drive));
   for (const std::string& path : defaults_taken(grid.drive)) {
     const auto has_path = [&](const auto& one) { return one.first == path; };
-    const auto& fixed = document.drive;
-    if (std::any_of(fixed.begin(), fixed.end(), has_path)) document.defaults.push_back(path);
+    if (any_of(document.drive, has_path)) document.defaults.push_back(path);
   }
   for (const Quantity quantity : quantities_of(of.table)) {
     document.columns.emplace_back(name_of(quantity), of.table[quantity]);

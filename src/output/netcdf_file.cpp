@@ -7,9 +7,11 @@
 
 #include <cerrno>
 #include <limits>
+#include <numeric>
 #include <system_error>
 #include <utility>
 
+#include "base/lists.hpp"
 #include "output/output_file.hpp"
 
 namespace gearlash {
@@ -136,15 +138,11 @@ NetcdfVariable NetcdfFile::add_flags(const std::string& name,
                                      const std::string& long_name,
                                      const std::vector<std::string>& meanings) {
   const NetcdfVariable variable = define(name, NC_BYTE, dimensions);
-  std::vector<signed char> values;
-  std::string words;
-  for (const std::string& meaning : meanings) {
-    values.push_back(static_cast<signed char>(values.size()));
-    words += (words.empty() ? "" : " ") + meaning;
-  }
+  std::vector<signed char> values(meanings.size());
+  std::iota(values.begin(), values.end(), static_cast<signed char>(0));
   require(nc_put_att_schar, variable, "flag_values", NC_BYTE, values.size(), values.data());
   attributes_.push_back({variable, "flag_values", values.size()});
-  set_attribute(variable, "flag_meanings", words);
+  set_attribute(variable, "flag_meanings", listed(meanings, std::identity(), " "));
   set_attribute(variable, "long_name", long_name);
   return variable;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace gearlash {
@@ -16,8 +17,12 @@ ParameterFacts facts_of(const Drive& drive, const std::string& path) {
           .choices = parameter.choices};
 }
 
-ParameterText::ParameterText(const Drive& drive, std::string parameter, const AngleUnit& angle)
-    : drive_(drive), axis_{.path = std::move(parameter)}, unit_(unit_of(axis_, drive)) {
+ParameterText::ParameterText(const Drive& drive, std::string parameter, const AngleUnit& angle,
+                             int digits)
+    : drive_(drive),
+      axis_{.path = std::move(parameter)},
+      unit_(unit_of(axis_, drive)),
+      digits_(digits) {
   if (unit_ == "rad") {
     unit_ = angle.name;
     size_ = angle.radians;
@@ -32,21 +37,21 @@ void ParameterText::show_in(const std::string& unit, double size) {
 
 std::string ParameterText::of(double value) const {
   if (std::isnan(value)) return "";
-  return is_word() ? text_of(axis_, drive_, value) : with_unit(significant(value / size_, digits));
+  return is_word() ? text_of(axis_, drive_, value) : with_unit(significant(value / size_, digits_));
 }
 
 std::string ParameterText::at_least(double value) const {
-  return with_unit(significant(rounded_up(value / size_, digits), digits));
+  return with_unit(significant(rounded_up(value / size_, digits_), digits_));
 }
 
 std::string ParameterText::at_most(double value) const {
-  return with_unit(significant(rounded_down(value / size_, digits), digits));
+  return with_unit(significant(rounded_down(value / size_, digits_), digits_));
 }
 
 std::string ParameterText::of(const Bounds& interval) const {
   if (interval.low == interval.high) return of(interval.low);
-  return significant(rounded_up(interval.low / size_, digits), digits) + " to " +
-         with_unit(significant(rounded_down(interval.high / size_, digits), digits));
+  return significant(rounded_up(interval.low / size_, digits_), digits_) + " to " +
+         with_unit(significant(rounded_down(interval.high / size_, digits_), digits_));
 }
 
 void SearchedGrids::add(const std::string& parameter, std::size_t count, const Bounds& range) {
@@ -64,6 +69,17 @@ std::string words_of(Quantity quantity) {
   std::string words(name_of(quantity));
   std::replace(words.begin(), words.end(), '_', ' ');
   return words;
+}
+
+DrawnUnit drawn_unit(Quantity quantity, const AngleUnit& angle, bool is_normalized) {
+  const std::string unit(info_of(quantity).unit);
+  if (unit == "rad") return {angle.name, angle.radians};
+  if (unit == "1") return {};
+  if (!is_normalized) return {unit};
+  if (unit == "s") return {"1/ω_n"};
+  if (unit == "Hz") return {"ω_n", 0.5 / std::numbers::pi};
+  if (unit == "rad/s") return {"rad ω_n"};
+  return {unit == "J" ? "K rad²" : unit};
 }
 
 std::string result_text(const Answer& answer, const AngleUnit& angle, bool is_normalized) {

@@ -27,7 +27,7 @@ ParameterFacts facts_of(const Drive& drive, const std::string& path);
 /// are words. Precondition: the drive has the parameter, and outlives this.
 class ParameterText {
  public:
-  ParameterText(const Drive& drive, std::string parameter, const AngleUnit& angle);
+  ParameterText(const Drive& drive, std::string parameter, const AngleUnit& angle, int digits = 6);
 
   /// Shows numbers in another unit, whose size is in SI.
   void show_in(const std::string& unit, double size);
@@ -43,8 +43,6 @@ class ParameterText {
   std::string of(const Bounds& interval) const;
 
  private:
-  static constexpr int digits = 6;
-
   std::string with_unit(const std::string& number) const {
     return unit_.empty() ? number : number + " " + unit_;
   }
@@ -53,6 +51,7 @@ class ParameterText {
   Axis axis_;
   std::string unit_;
   double size_ = 1.0;  ///< of the unit, in SI
+  int digits_;
 };
 
 /// The grids of values that a search tried, of the parameters that were searched value by value.
@@ -84,6 +83,15 @@ class SearchedGrids {
 
 /// "motor amplitude".
 std::string words_of(Quantity quantity);
+
+/// A unit as it is shown, and its size as a table has it.
+struct DrawnUnit {
+  std::string name = {};  ///< empty for words and pure numbers
+  double size = 1.0;      ///< in SI
+};
+
+/// Angles are in `angle`; times of a normal form without a natural frequency are in units of 1/ω_n.
+DrawnUnit drawn_unit(Quantity quantity, const AngleUnit& angle, bool is_normalized);
 
 /// "hunts: motor ±0.218 deg at 0.261 Hz": the verdict and the largest motion, of the motor where it
 /// hunts within the gap; the growth at rest of what cannot hunt. A normal form has no frequencies.

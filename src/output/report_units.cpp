@@ -11,23 +11,20 @@ std::string significant(double value, int digits) { return fmt::format("{:.{}g}"
 
 namespace {
 
-/// Of the last of `digits` significant digits.
-double last_unit(double bound, int digits) {
-  return std::pow(10.0, std::floor(std::log10(bound)) - (digits - 1));
+double rounded(double bound, int digits, double (*round)(double)) {
+  if (!(bound > 0.0) || !std::isfinite(bound)) return bound;
+  const double last_unit = std::pow(10.0, std::floor(std::log10(bound)) - (digits - 1));
+  return round(bound / last_unit) * last_unit;
 }
 
 }  // namespace
 
-double rounded_up(double bound, int digits) {
-  if (!(bound > 0.0) || !std::isfinite(bound)) return bound;
-  const double unit = last_unit(bound, digits);
-  return std::ceil(bound / unit) * unit;
-}
+double rounded_up(double bound, int digits) { return rounded(bound, digits, std::ceil); }
 
-double rounded_down(double bound, int digits) {
-  if (!(bound > 0.0) || !std::isfinite(bound)) return bound;
-  const double unit = last_unit(bound, digits);
-  return std::floor(bound / unit) * unit;
+double rounded_down(double bound, int digits) { return rounded(bound, digits, std::floor); }
+
+std::string name_with_unit(const std::string& name, const std::string& unit) {
+  return unit.empty() ? name : name + " (" + unit + ")";
 }
 
 std::string change_text(double ratio) {

@@ -24,6 +24,9 @@ double rounded_up(double bound, int digits);
 /// A lower bound likewise, not above it.
 double rounded_down(double bound, int digits);
 
+/// "gap (rad)"; the name alone of what has no unit.
+std::string name_with_unit(const std::string& name, const std::string& unit);
+
 /// A change by this ratio: "+12.3 %", "−40 %", "×26".
 std::string change_text(double ratio);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/lists.hpp"
 #include "base/overloaded.hpp"
 #include "base/special_numbers.hpp"
 #include "model/reduced_drive.hpp"
@@ -92,11 +93,8 @@ std::string index_text(const std::optional<SensitivityIndices>& indices,
   return fmt::format("{:.3f}", std::max(0.0, ((*indices).*index).value));
 }
 
-/// The number with its unit; angles are in the author's unit.
-std::string number_text(const std::string& path, double value, const ToleranceReport& report) {
-  const std::string unit(unit_of(report.drive.nominal, path));
-  if (unit == "rad") return angle_text(value, report);
-  return significant(value, usual_digits) + (unit == "1" ? "" : " " + unit);
+ParameterText text_of(const std::string& path, const ToleranceReport& report) {
+  return {report.drive.nominal, path, report.angle, usual_digits};
 }
 
 /// "± 5 %", "0.05 rad to 0.15 rad", "normal, 3 %", "2 lots".
@@ -104,7 +102,7 @@ std::string spread_text(const ParameterTolerance& varied, const ToleranceReport&
   const auto share = [](double spread, double nominal) {
     return significant(100.0 * spread / std::abs(nominal), usual_digits) + " %";
   };
-  const auto value = [&](double number) { return number_text(varied.path, number, report); };
+  const auto value = [number = text_of(varied.path, report)](double one) { return number.of(one); };
   return std::visit(
       Overloaded{
           [&](const ExactValue& exact) { return value(exact.value); },
@@ -142,7 +140,7 @@ double widest_bar(const SensitivityStudy& study) {
 }
 
 std::string worst_number_text(const WorstNumber& worst, const ToleranceReport& report) {
-  return number_text(worst.path, worst.value, report) + ", " + name_of(worst.place);
+  return text_of(worst.path, report).of(worst.value) + ", " + name_of(worst.place);
 }
 
 TextRows number_rows(const ToleranceReport& report) {
@@ -275,11 +273,9 @@ std::string tolerance_text(const ToleranceReport& report) {
 }
 
 std::vector<Moments> ToleranceReport::moments() const {
-  std::vector<Moments> all;
-  for (const ParameterTolerance& one : drive.varied) {
-    all.push_back({one.path, mean_of(one.distribution), standard_deviation_of(one.distribution)});
-  }
-  return all;
+  return of_each(drive.varied, [](const ParameterTolerance& one) {
+    return Moments{one.path, mean_of(one.distribution), standard_deviation_of(one.distribution)};
+  });
 }
 
 }  // namespace gearlash

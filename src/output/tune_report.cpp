@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "base/lists.hpp"
 #include "output/columns.hpp"
 #include "output/drive_text.hpp"
 #include "output/parameter_text.hpp"
@@ -20,6 +21,17 @@ const Drive& present_drive(const TuneReport& report) { return report.task.series
 
 std::string parameter_text(const TuneReport& report, const std::string& path, double value) {
   return ParameterText(present_drive(report), path, report.angle).of(value);
+}
+
+/// "gearbox.backlash = 1 deg, load.inertia = 0.2 kg m2".
+template <class Named>
+std::string values_text(const TuneReport& report, const std::vector<Named>& named,
+                        const std::vector<double>& values) {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    texts.push_back(named[i].path + " = " + parameter_text(report, named[i].path, values[i]));
+  }
+  return listed(texts);
 }
 
 std::string table_of_values(const TuneReport& report) {
@@ -75,18 +87,14 @@ std::string outcome_text(const TuneReport& report) {
 std::string limiting_text(const TuneReport& report) {
   const std::optional<TunedUnit>& unit = report.tuned.limiting;
   if (!unit) return "";
-  std::string text;
-  for (std::size_t i = 0; i < unit->values.size(); ++i) {
-    const std::string& path = report.task.series.varied[i].path;
-    text += (i == 0 ? " " : ", ") + path + " = " + parameter_text(report, path, unit->values[i]);
-  }
+  const std::string text = values_text(report, report.task.series.varied, unit->values);
   const bool is_searched = unit->answer.verdict != Verdict::undecided || unit->answer.search;
   const std::string what = is_searched ? result_text(unit->answer, report.angle)
                                        : "its linear loop lacks the phase margin";
   if (text.empty()) return "What it does then: " + what + ".";
   const bool all_meet = report.tuned.met == report.tuned.units;
-  return (all_meet ? "The unit that limits, as an earlier proposal had it:"
-                   : "The unit that misses it most:") +
+  return (all_meet ? "The unit that limits, as an earlier proposal had it: "
+                   : "The unit that misses it most: ") +
          text + " (" + what + ").";
 }
 
@@ -97,13 +105,9 @@ std::string advice_text(const TuneReport& report) {
   if (const auto why = report.why_integral_action_hunts()) text = *why + ". ";
   if (const std::optional<TunedDrive>& without = report.without_integral) {
     text += "Without integral action: " + count_text(*without) + " the target" +
-            reached_text(report, *without);
-    const std::vector<Axis> axes = without_integral_action(report.task)->tuned;
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-      text += (i == 0 ? " (" : ", ") + axes[i].path + " = " +
-              parameter_text(report, axes[i].path, without->values[i]);
-    }
-    text += "). A static error then remains, and a steady torque on the load adds to it.";
+            reached_text(report, *without) + " (" +
+            values_text(report, without_integral_action(report.task)->tuned, without->values) +
+            "). A static error then remains, and a steady torque on the load adds to it.";
   }
   return text;
 }

@@ -8,7 +8,6 @@
 #include <sys/prctl.h>
 #endif
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/lists.hpp"
 #include "picture/attractor_picture.hpp"
 #include "picture/phase_portrait.hpp"
 
@@ -98,9 +99,8 @@ MotionPicture servo_picture(const AnswerReport& report, const Analysis& analysis
     const double stays = std::abs(other.multiplier);
     const std::string swing = " ±" + angle_text(other.amplitude, report.angle, 3);
     const std::string name = (stays < 1.0 ? "stable cycle" : "unstable cycle") + swing;
-    const bool is_named = std::any_of(picture.motions.begin(), picture.motions.end(),
-                                      [&](const DrawnMotion& drawn) { return drawn.name == name; });
-    if (is_named) continue;  // cannot be told apart either
+    const auto is_named = [&](const DrawnMotion& drawn) { return drawn.name == name; };
+    if (any_of(picture.motions, is_named)) continue;  // cannot be told apart either
     picture.motions.push_back(
         {.motion = motion_from(report, analysis, other.start, 0.0, other.period),
          .name = name,

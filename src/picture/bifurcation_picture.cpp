@@ -11,23 +11,18 @@
 #include <vector>
 
 #include "base/extent.hpp"
+#include "base/lists.hpp"
 #include "picture/curve_panel.hpp"
 #include "picture/grid_words.hpp"
 
 namespace gearlash {
 namespace {
 
-Layer style_of(Stability stability) {
-  switch (stability) {
-    case Stability::stable:
-      return {.name = "stable cycle", .colour = "#0072b2", .width = 2.6};
-    case Stability::neutral:
-      return {.name = "neutral cycle", .colour = "#009e73", .width = 1.6, .dashes = "2,2"};
-    case Stability::unstable:
-      return {.name = "unstable cycle", .colour = "#d55e00", .width = 1.6, .dashes = "8,5"};
-  }
-  return {};
-}
+/// In the order of Stability.
+const Layer branch_styles[] = {
+    {.name = "stable cycle", .colour = "#0072b2", .width = 2.6},
+    {.name = "neutral cycle", .colour = "#009e73", .width = 1.6, .dashes = "2,2"},
+    {.name = "unstable cycle", .colour = "#d55e00", .width = 1.6, .dashes = "8,5"}};
 
 /// Empty for a quantity that branches do not have.
 std::optional<double> value_of(const CycleAt& cycle, Quantity quantity) {
@@ -108,7 +103,7 @@ void add_rest(const BifurcationDiagram& diagram, const Drawing& drawing, Panel& 
 
 void add_branches(const BifurcationDiagram& diagram, const Drawing& drawing, Panel& panel) {
   for (const Stability stability : {Stability::unstable, Stability::neutral, Stability::stable}) {
-    Layer lines = style_of(stability);
+    Layer lines = branch_styles[static_cast<std::size_t>(stability)];
     Layer marks{.kind = LayerKind::marks,  // a line of one point is invisible
                 .colour = lines.colour,
                 .mark = stability == Stability::stable ? Mark::disc : Mark::circle,
@@ -158,7 +153,7 @@ std::vector<const MarkedBorder*> distinct(const BifurcationDiagram& diagram, con
       }
       return !border.cycle || std::abs(height(*other->cycle) - height(*border.cycle)) <= together;
     };
-    if (std::none_of(kept.begin(), kept.end(), covers)) kept.push_back(&border);
+    if (!any_of(kept, covers)) kept.push_back(&border);
   }
   return kept;
 }

@@ -8,6 +8,8 @@
 #include <map>
 #include <utility>
 
+#include "base/lists.hpp"
+
 namespace gearlash {
 namespace {
 
@@ -65,8 +67,7 @@ void say(const std::string& reason, Panel& panel) {
 
 Panel bar_panel(const std::vector<Bar>& bars, PlotAxis values, const std::string& value_meaning,
                 const std::string& part_meaning) {
-  const bool has_parts =
-      std::any_of(bars.begin(), bars.end(), [](const Bar& bar) { return bar.part.has_value(); });
+  const bool has_parts = any_of(bars, [](const Bar& bar) { return bar.part.has_value(); });
   Layer whole{.kind = LayerKind::area,
               .name = has_parts ? value_meaning : "",
               .colour = has_parts ? "#9ecae1" : "#2e6fa8"};

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/lists.hpp"
+
 namespace gearlash {
 namespace {
 
@@ -107,8 +109,7 @@ std::vector<Break> breaks_of(const Motion& motion, const std::vector<double>& le
   for (const double leap : leaps) {
     if (leap > 0.0 && leap < motion.end_time()) breaks.push_back({leap, nullptr});
   }
-  std::stable_sort(breaks.begin(), breaks.end(),
-                   [](const Break& one, const Break& other) { return one.time < other.time; });
+  sort_by(breaks, &Break::time);
   breaks.push_back({motion.end_time(), nullptr});
   return breaks;
 }

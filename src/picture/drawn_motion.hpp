@@ -33,4 +33,14 @@ struct DrawnPiece {
 std::vector<DrawnPiece> drawn_motion(const Motion& motion, const AngleUnit& angle, double period,
                                      const std::vector<double>& leaps);
 
+/// Calls `visit` with each point of all pieces, from a time on (s).
+template <class Visit>
+void for_each_point(const std::vector<DrawnPiece>& pieces, const Visit& visit, double from = 0.0) {
+  for (const DrawnPiece& piece : pieces) {
+    for (const DrawnPoint& point : piece.points) {
+      if (point.time >= from) visit(point);
+    }
+  }
+}
+
 }  // namespace gearlash

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/lists.hpp"
 #include "input/units.hpp"
 #include "output/columns.hpp"
 #include "picture/gnuplot.hpp"
@@ -137,10 +138,8 @@ void place_legend(const Plot& plot, Page& page) {
   for (const PlotColumn& column : plot.columns) {
     for (const Panel& panel : column) {
       for (const Layer& layer : panel.layers) {
-        const bool is_named =
-            std::any_of(page.legend.begin(), page.legend.end(),
-                        [&](const Layer* other) { return other->name == layer.name; });
-        if (layer.name.empty() || is_named) continue;
+        const auto has_name = [&](const Layer* other) { return other->name == layer.name; };
+        if (layer.name.empty() || any_of(page.legend, has_name)) continue;
         page.legend.push_back(&layer);
         length = std::max(length, width_in_columns(layer.name));
       }
@@ -164,8 +163,7 @@ Page page_of(const Plot& plot) {
     }
   }
   const bool has_titles =
-      std::any_of(plot.columns.begin(), plot.columns.end(),
-                  [](const PlotColumn& column) { return !column.front().title.empty(); });
+      any_of(plot.columns, [](const PlotColumn& column) { return !column.front().title.empty(); });
   const double top = 20.0 + title_line * static_cast<double>(page.titles.size()) +
                      subtitle_line * static_cast<double>(page.subtitles.size()) +
                      (has_titles ? panel_title : 0.0);
@@ -218,17 +216,16 @@ std::string heading(const Page& page) {
 
 /// `name` is 'x' or 'y'.
 std::string axis_commands(char name, const PlotAxis& axis, bool is_numbered, bool is_slanted) {
-  std::vector<std::string> tics;
-  for (const Tic& tic : axis.tics) {
-    tics.push_back(fmt::format("{} {:.9g}{}", quoted(is_numbered ? tic.text : ""), tic.at,
-                               tic.text.empty() ? " 1" : ""));
-  }
+  const auto tic_text = [&](const Tic& tic) {
+    return fmt::format("{} {:.9g}{}", quoted(is_numbered ? tic.text : ""), tic.at,
+                       tic.text.empty() ? " 1" : "");
+  };
   const std::string grid =
       fmt::format("set grid {}tics linewidth 0.5 linecolor rgb '#c4c4c4'\n", name);
   return fmt::format(
       "set {0}range [{1:.9g}:{2:.9g}]\n{3}set logscale {0}\nset {0}tics {4} ({5})\n{6}", name,
       *axis.low, *axis.high, axis.logarithmic ? "" : "un",
-      is_slanted ? "rotate by 35 right" : "norotate", fmt::join(tics, ", "),
+      is_slanted ? "rotate by 35 right" : "norotate", listed(axis.tics, tic_text),
       axis.has_grid ? grid : "");
 }
 
@@ -306,10 +303,8 @@ std::string panel_commands(const PlacedPanel& placed, std::size_t number, double
   std::vector<std::string> layers;
   for (std::size_t i = 0; i < panel.layers.size(); ++i) {
     const Layer& layer = panel.layers[i];
-    if (std::none_of(layer.points.begin(), layer.points.end(),
-                     [](const MapPoint& point) { return std::isfinite(point.x + point.y); })) {
-      continue;
-    }
+    const auto is_drawn = [](const MapPoint& point) { return std::isfinite(point.x + point.y); };
+    if (!any_of(layer.points, is_drawn)) continue;
     const std::string name = fmt::format("layer{}_{}", number, i);
     script += data_of(layer, name);
     layers.push_back(fmt::format("${} using 1:2 with {} notitle", name, style_of(layer)));
@@ -318,8 +313,7 @@ std::string panel_commands(const PlacedPanel& placed, std::size_t number, double
 }
 
 std::string legend_commands(const Page& page, PictureFormat format) {
-  std::vector<std::string> entries;
-  for (const Layer* layer : page.legend) entries.push_back(legend_entry(*layer));
+  const auto entries = of_each(page.legend, [](const Layer* one) { return legend_entry(*one); });
   return fmt::format(
              "set lmargin at screen 0.02\nset rmargin at screen 0.98\nunset border\nunset tics\n"
              "unset grid\nunset xlabel\nunset logscale\n"
@@ -331,13 +325,18 @@ std::string legend_commands(const Page& page, PictureFormat format) {
 
 }  // namespace
 
-PictureFormat picture_format(const std::string& field, const std::filesystem::path& path) {
+std::string ending_of(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending == ".svg") return PictureFormat::svg;
-  if (ending == ".png") return PictureFormat::png;
-  if (ending == ".pdf") return PictureFormat::pdf;
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+PictureFormat picture_format(const std::string& field, const std::filesystem::path& path) {
+  const auto* const found =
+      std::find(std::begin(picture_endings), std::end(picture_endings), ending_of(path));
+  if (found != std::end(picture_endings)) {
+    return static_cast<PictureFormat>(found - std::begin(picture_endings));
+  }
   refuse(field, path.string(), "must end in .svg, .png or .pdf");
 }
 

@@ -9,6 +9,10 @@
 namespace gearlash {
 
 enum class PictureFormat { svg, png, pdf };
+inline constexpr std::string_view picture_endings[] = {".svg", ".png", ".pdf"};
+
+/// The extension of a file's name in small letters: ".svg".
+std::string ending_of(const std::filesystem::path& path);
 
 /// The format by the file name's ending: .svg, .png or .pdf, in small or capital letters. Throws
 /// InvalidInput, naming `field`, for any other.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/lists.hpp"
 #include "picture/curve_panel.hpp"
 #include "picture/grid_words.hpp"
 #include "picture/hunting_curve.hpp"
@@ -87,8 +88,8 @@ Plot chart_plot(const GridTable& table, Quantity quantity) {
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t first = i * x.values.size();
     NamedCurve curve = curve_of(table, family, first, quantity);
-    const bool is_drawn = std::any_of(curve.line.begin(), curve.line.end(),
-                                      [](const auto& point) { return std::isfinite(point.y); });
+    const bool is_drawn =
+        any_of(curve.line, [](const MapPoint& point) { return std::isfinite(point.y); });
     if (grid.axes.size() > 1) {
       const Axis& named = grid.axes.front();
       curve.name = in_words(named.path) + " " +

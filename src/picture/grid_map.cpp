@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/lists.hpp"
 #include "picture/curve_panel.hpp"
 #include "picture/grid_words.hpp"
 #include "picture/paper.hpp"
@@ -40,33 +41,15 @@ std::vector<double> levels_of(const GridTable& table, Quantity quantity) {
 std::vector<Contour> drawn_contours(const GridTable& table, Quantity quantity) {
   const double unit = drawn_unit(quantity, table.grid, table.angle).size;
   const std::vector<double> levels = levels_of(table, quantity);
-  std::vector<double> in_table;
-  for (const double level : levels) in_table.push_back(level * unit);
+  const auto in_table = of_each(levels, [&](double level) { return level * unit; });
   std::vector<Contour> contours = contours_of(table.grid, table.table, quantity, in_table);
   for (Contour& contour : contours) contour.level /= unit;
   return contours;
 }
 
-/// Light enough for contours on them, and of different lightness.
-const char* colour_of(PlaceKind kind) {
-  switch (kind) {
-    case PlaceKind::rests:
-      return "#eef6ee";
-    case PlaceKind::hunts_if_disturbed:
-      return "#fdf0c8";
-    case PlaceKind::hunts:
-      return "#fbd9bd";
-    case PlaceKind::runs_away:
-      return "#e0b3c4";
-    case PlaceKind::met:
-      return "#cfe8cf";
-    case PlaceKind::missed:
-      return "#f7efe6";
-    case PlaceKind::not_known:
-      break;
-  }
-  return "#d4d4d4";
-}
+/// In the order of PlaceKind: light enough for contours on them, and of different lightness.
+constexpr const char* kind_colours[] = {"#d4d4d4", "#eef6ee", "#fdf0c8", "#fbd9bd",
+                                        "#e0b3c4", "#cfe8cf", "#f7efe6"};
 
 /// The place of the drive as it is, if it lies on the map.
 std::optional<MapPoint> mark_of(const GridTable& table) {
@@ -105,12 +88,11 @@ void add_regions(const std::vector<MapRegion>& regions, const MapPaper& paper, P
       if (!(area > 0.0)) continue;  // a hole
       layers.emplace_back(area, Layer{.kind = LayerKind::area,
                                       .name = std::string(name_of(region.kind)),
-                                      .colour = colour_of(region.kind),
+                                      .colour = kind_colours[static_cast<std::size_t>(region.kind)],
                                       .points = paper.seen(outline)});
     }
   }
-  std::stable_sort(layers.begin(), layers.end(),
-                   [](const auto& one, const auto& other) { return one.first > other.first; });
+  sort_by(layers, [](const auto& one) { return -one.first; });
   for (auto& [area, layer] : layers) panel.layers.push_back(std::move(layer));
 }
 
@@ -161,10 +143,8 @@ void add_all_contours(const GridTable& table, Quantity quantity,
   for (const Contour& contour : contours) avoid(contour.curves);
   for (const Contour& contour : ceilings) avoid(contour.curves);
   TextPlacer placer(std::move(lines), panel.height);
-  const std::string unit =
-      table.target ? unit_in_brackets(quantity, table.grid, table.angle) : std::string();
-  add_contours(contours, in_words(std::string(name_of(quantity))) + unit, false, paper, placer,
-               panel);
+  const PlotAxis axis = plot_axis(quantity, table.grid, table.angle);
+  add_contours(contours, table.target ? label_of(axis) : axis.name, false, paper, placer, panel);
   add_contours(ceilings, "ceiling, proved", true, paper, placer, panel);
 }
 
@@ -210,7 +190,8 @@ Plot contour_plot(const GridTable& table, Quantity quantity) {
                             .points = {{mark->x / x_unit, mark->y / y_unit}}});
   }
   return plot_of(table.target ? "Target: " + table.target_text
-                              : title_of(quantity) + unit_in_brackets(quantity, grid, table.angle),
+                              : name_with_unit(title_of(quantity),
+                                               drawn_unit(quantity, grid, table.angle).name),
                  subtitle_of(grid), std::move(panel));
 }
 
@@ -224,12 +205,12 @@ Plot cell_plot(const GridTable& table, Quantity quantity) {
               .letters = x.values.size() > 8 ? 0.75 : 1.0,
               .dot_meaning = "comes to rest",
               .frame_meaning = table.target ? "framed: " + table.target_text : ""};
-  for (const double value : x.values) {
-    cells.columns.push_back(short_text(x, grid.drive, value, table.angle));
-  }
-  for (const double value : y.values) {
-    cells.rows.push_back(short_text(y, grid.drive, value, table.angle));
-  }
+  const auto texts_of = [&](const Axis& axis) {
+    return of_each(axis.values,
+                   [&](double value) { return short_text(axis, grid.drive, value, table.angle); });
+  };
+  cells.columns = texts_of(x);
+  cells.rows = texts_of(y);
   const double unit = drawn_unit(quantity, grid, table.angle).size;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < y.values.size(); ++i) {
@@ -252,7 +233,7 @@ Plot cell_plot(const GridTable& table, Quantity quantity) {
   const auto label = [&](const Axis& axis) {
     return label_of(plot_axis(axis, grid.drive, table.angle));
   };
-  return plot_of(title_of(quantity) + unit_in_brackets(quantity, grid, table.angle),
+  return plot_of(name_with_unit(title_of(quantity), drawn_unit(quantity, grid, table.angle).name),
                  subtitle_of(grid) + "; empty: not known", cell_panel(cells, label(x), label(y)));
 }
 

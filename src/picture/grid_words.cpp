@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 
+#include "base/lists.hpp"
 #include "gearlash/parameter.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/grid_table.hpp"
@@ -14,8 +14,7 @@ namespace gearlash {
 namespace {
 
 bool is_varied(const Grid& grid, std::string_view path) {
-  return std::any_of(grid.axes.begin(), grid.axes.end(),
-                     [&](const Axis& axis) { return axis.path == path; });
+  return any_of(grid.axes, [&](const Axis& axis) { return axis.path == path; });
 }
 
 bool in_backlashes(const Grid& grid) {
@@ -26,17 +25,13 @@ bool in_backlashes(const Grid& grid) {
 }  // namespace
 
 DrawnUnit drawn_unit(Quantity quantity, const Grid& grid, const AngleUnit& angle) {
-  const std::string unit(info_of(quantity).unit);
-  const bool is_free = in_backlashes(grid);
-  if (unit == "rad")
-    return is_free ? DrawnUnit{"backlashes"} : DrawnUnit{angle.name, angle.radians};
-  if (unit == "1") return {};
-  if (!is_normalized(grid.drive)) return {unit};
-  if (unit == "s") return {"1/ω_n"};
-  if (unit == "Hz") return {"ω_n"};
-  if (unit == "rad/s") return {is_free ? "backlashes × ω_n" : "rad ω_n"};
-  if (unit == "J") return {is_free ? "K × backlash²" : "K rad²"};
-  return {unit};
+  const std::string_view unit = info_of(quantity).unit;
+  if (in_backlashes(grid)) {
+    if (unit == "rad") return {"backlashes"};
+    if (unit == "rad/s") return {"backlashes × ω_n"};
+    if (unit == "J") return {"K × backlash²"};
+  }
+  return drawn_unit(quantity, angle, is_normalized(grid.drive));
 }
 
 DrawnUnit drawn_unit(const Axis& axis, const Drive& drive, const AngleUnit& angle) {
@@ -47,15 +42,12 @@ DrawnUnit drawn_unit(const Axis& axis, const Drive& drive, const AngleUnit& angl
 
 std::string subtitle_of(const Grid& grid) {
   if (Family(grid).engines().search) return certainty_of(grid);
-  std::string text;
-  for (const NormalFormNumber& number : normal_form_numbers) {
-    const bool is_there =
-        grid.drive.servo && parameter_of({.path = std::string(number.path)}, grid.drive) != nullptr;
-    if (!is_there || is_varied(grid, number.path)) continue;
-    text += fmt::format("{}{} {:.4g}", text.empty() ? "" : ", ", in_words(std::string(number.path)),
-                        get(grid.drive, number.path));
-  }
-  return text;
+  return listed(normal_form_numbers, [&](const NormalFormNumber& number) -> std::string {
+    const std::string path(number.path);
+    const bool is_there = grid.drive.servo && parameter_of({.path = path}, grid.drive) != nullptr;
+    if (!is_there || is_varied(grid, path)) return "";
+    return fmt::format("{} {:.4g}", in_words(path), get(grid.drive, path));
+  });
 }
 
 std::string in_words(const std::string& path) {
@@ -75,11 +67,6 @@ std::string title_of(Quantity quantity) {
 PlotAxis plot_axis(Quantity quantity, const Grid& grid, const AngleUnit& angle) {
   return {.name = in_words(std::string(name_of(quantity))),
           .unit = drawn_unit(quantity, grid, angle).name};
-}
-
-std::string unit_in_brackets(Quantity quantity, const Grid& grid, const AngleUnit& angle) {
-  const std::string unit = drawn_unit(quantity, grid, angle).name;
-  return unit.empty() ? "" : " (" + unit + ")";
 }
 
 bool has_words(const Axis& axis, const Drive& drive) { return unit_of(axis, drive).empty(); }

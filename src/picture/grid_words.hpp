@@ -19,12 +19,6 @@ std::string in_words(const std::string& path);
 /// "Amplitude of the load".
 std::string title_of(Quantity quantity);
 
-/// A unit in a picture, and its size as a table has it.
-struct DrawnUnit {
-  std::string name = {};  ///< empty for words and pure numbers
-  double size = 1.0;      ///< the radians of an angle's
-};
-
 /// Angles are in `angle`; for a normal form with a fixed backlash of 1 in backlashes. For one
 /// without a natural frequency, times are in units of 1/ω_n.
 DrawnUnit drawn_unit(Quantity quantity, const Grid& grid, const AngleUnit& angle);
@@ -34,9 +28,6 @@ DrawnUnit drawn_unit(const Axis& axis, const Drive& drive, const AngleUnit& angl
 PlotAxis plot_axis(Quantity quantity, const Grid& grid, const AngleUnit& angle);
 /// The axis in a picture; a single value stands in the middle.
 PlotAxis plot_axis(const Axis& axis, const Drive& drive, const AngleUnit& angle);
-
-/// " (rad)"; empty for a pure number.
-std::string unit_in_brackets(Quantity quantity, const Grid& grid, const AngleUnit& angle);
 
 /// Whether the axis has words instead of numbers.
 bool has_words(const Axis& axis, const Drive& drive);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "gearlash/fault.hpp"
@@ -28,15 +27,13 @@ Layer impact_marks(const MapCurve& impacts, const Bounds& x, const Bounds& y, do
 
 std::vector<DrawnPiece> legible_curve(const MotionPicture& picture, const Motion& motion) {
   if (motion.events().size() > most_events_drawn) {
-    throw InvalidInput(
-        {{"--until", fmt::format("a motion with {} events", motion.events().size()),
-          fmt::format("must be shorter to be drawn, {} events at most", most_events_drawn), ""}});
+    refuse("--until", fmt::format("a motion with {} events", motion.events().size()),
+           fmt::format("must be shorter to be drawn, {} events at most", most_events_drawn));
   }
   const double longest = most_periods_drawn * picture.period;
   if (motion.end_time() > longest) {
-    throw InvalidInput(
-        {{"--until", significant(motion.end_time(), 6) + " s",
-          fmt::format("must be at most {} s to be drawn", significant(longest, 6)), ""}});
+    refuse("--until", significant(motion.end_time(), 6) + " s",
+           fmt::format("must be at most {} s to be drawn", significant(longest, 6)));
   }
   std::vector<double> leaps;
   const Signal reference = picture.drive.reference.value_or(Signal{});

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "base/extent.hpp"
+#include "base/lists.hpp"
 #include "base/overloaded.hpp"
 #include "output/describe_report.hpp"
 #include "picture/paper.hpp"
@@ -182,9 +183,8 @@ Panel critical_panel(const NyquistPicture& picture, const std::vector<KeyPoint>&
       shown.push_back(1.6 * *end);  // shows some of the curve towards it
     }
   }
-  const bool has_stable = std::any_of(points.begin(), points.end(), [](const KeyPoint& point) {
-    return point.mark == stable_mark;
-  });
+  const bool has_stable =
+      any_of(points, [](const KeyPoint& point) { return point.mark == stable_mark; });
   const auto is_wanted = [&](Mark mark) {
     return mark == stable_mark || mark == exact_frequency_mark ||
            (mark == unstable_mark && !has_stable);
@@ -346,8 +346,7 @@ Layer layer_of(const KeyPoint& point, const Paper& paper) {
 /// Adds the marks of the curves that have room around them, and all texts.
 void add_marks(const std::vector<KeyPoint>& points, const std::vector<DrawnCurve>& curves,
                const Paper& paper, Panel& panel) {
-  std::vector<PaperLine> lines;
-  for (const DrawnCurve& curve : curves) lines.push_back(curve.seen);
+  std::vector<PaperLine> lines = of_each(curves, &DrawnCurve::seen);
   std::vector<Complex> taken = {paper.on_paper(MapPoint{})};  // where unnumbered marks crowd
   for (const KeyPoint& point : points) {
     if (!is_finite(point.at)) continue;
@@ -375,13 +374,9 @@ void add_marks(const std::vector<KeyPoint>& points, const std::vector<DrawnCurve
     for (const Candidate& mark : curve->marks) {
       if (!is_seen(mark.at, paper, -margin)) continue;
       const Complex place = paper.on_paper(map_point(mark.at));
-      const bool is_clear = std::none_of(taken.begin(), taken.end(), [&](const Complex& other) {
-        return std::abs(place - other) < room;
-      });
-      if (!is_clear ||
-          !add_text(mark.at, {.text = mark.text, .colour = marks.colour, .size = 0.8})) {
-        continue;
-      }
+      const auto is_near = [&](const Complex& other) { return std::abs(place - other) < room; };
+      const PlotText text{.text = mark.text, .colour = marks.colour, .size = 0.8};
+      if (any_of(taken, is_near) || !add_text(mark.at, text)) continue;
       taken.push_back(place);
       marks.points.push_back(map_point(mark.at));
     }
@@ -420,7 +415,7 @@ Plot nyquist_plot(const NyquistPicture& picture) {
   }
   for (const KeyPoint& point : points) panel.layers.push_back(layer_of(point, paper));
   add_marks(points, curves, paper, panel);
-  const bool has_exact = std::any_of(picture.exact.begin(), picture.exact.end(), is_drawn);
+  const bool has_exact = any_of(picture.exact, is_drawn);
   return plot_of(picture.title,
                  std::string("cycles are predicted where L(jω) = −1/N(A)") +
                      (has_exact ? "; were that exact, the diamonds would be one point" : ""),

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/lists.hpp"
 #include "output/columns.hpp"
 
 namespace gearlash {
@@ -95,15 +96,11 @@ MapPoint Paper::on_map(const PaperPoint& point) const {
 }
 
 PaperLine Paper::on_paper(const MapCurve& curve) const {
-  PaperLine line;
-  for (const MapPoint& point : curve) line.push_back(on_paper(point));
-  return line;
+  return of_each(curve, [&](const MapPoint& point) { return on_paper(point); });
 }
 
 MapCurve Paper::on_map(const PaperLine& line) const {
-  MapCurve curve;
-  for (const PaperPoint& point : line) curve.push_back(on_map(point));
-  return curve;
+  return of_each(line, [&](const PaperPoint& point) { return on_map(point); });
 }
 
 double length_of(const PaperLine& line) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/extent.hpp"
+#include "base/lists.hpp"
 #include "model/reduced_drive.hpp"
 #include "picture/curve_panel.hpp"
 #include "picture/motion_style.hpp"
@@ -26,19 +27,25 @@ std::string legend_of(const std::string& shaft, const std::string& name) {
   return name.empty() ? shaft : shaft + ", " + name;
 }
 
-/// A thin line of one shaft.
-Layer thin_style(MotionRole role) {
-  switch (role) {
-    case MotionRole::to_rest:
-      return {.name = "on its way to rest", .colour = "#6e6e6e", .width = 0.9, .dashes = "3,3"};
-    case MotionRole::to_hunting:
-      return {.name = "on its way to hunting", .colour = "#56b4e9", .width = 0.9};
-    case MotionRole::running_away:
-      return {.name = "running away", .colour = "#aa0000", .width = 0.9, .dashes = "12,3,3,3"};
-    default:
-      return {.name = "end not known", .width = 0.9, .dashes = "1,4"};
-  }
-}
+/// A start, and the thin line of one shaft from it, by what it leads to.
+struct WayStyle {
+  MotionRole leads;
+  Layer start;
+  Layer line;
+};
+const WayStyle way_styles[] = {
+    {MotionRole::to_rest,
+     {.name = "start that leads to rest", .colour = "#444444", .size = 0.25},
+     {.name = "on its way to rest", .colour = "#6e6e6e", .width = 0.9, .dashes = "3,3"}},
+    {MotionRole::to_hunting,
+     {.name = "to hunting", .colour = load_colour, .mark = Mark::circle},
+     {.name = "on its way to hunting", .colour = "#56b4e9", .width = 0.9}},
+    {MotionRole::running_away,
+     {.name = "to running away", .colour = "#aa0000", .mark = Mark::cross, .size = 0.65},
+     {.name = "running away", .colour = "#aa0000", .width = 0.9, .dashes = "12,3,3,3"}},
+    {MotionRole::not_known,
+     {.name = "to an end not known", .mark = Mark::plus, .size = 0.45},
+     {.name = "end not known", .width = 0.9, .dashes = "1,4"}}};
 
 bool is_thin(MotionRole role) { return role >= MotionRole::to_rest; }
 
@@ -67,11 +74,9 @@ bool is_far_away(const MapPoint& point, const PhaseWindow& window) {
 
 ShaftLine line_of(const std::vector<DrawnPiece>& pieces, ShaftAt at, const PhaseWindow* window) {
   double fastest = 0.0;
-  for (const DrawnPiece& piece : pieces) {
-    for (const DrawnPoint& point : piece.points) {
-      fastest = std::max({fastest, std::abs(point.load_speed), std::abs(point.motor_speed)});
-    }
-  }
+  for_each_point(pieces, [&](const DrawnPoint& point) {
+    fastest = std::max({fastest, std::abs(point.load_speed), std::abs(point.motor_speed)});
+  });
   constexpr double visible_leap = 1e-3;
   ShaftLine drawn;
   const DrawnPoint* last = nullptr;
@@ -123,8 +128,7 @@ Layer apart_area(const std::vector<DrawnPiece>& pieces, bool is_first) {
       area.name = "crossing the gap";
       continue;
     }
-    MapCurve outline;
-    for (const DrawnPoint& point : piece.points) outline.push_back(load_at(point));
+    MapCurve outline = of_each(piece.points, load_at);
     for (auto point = piece.points.rbegin(); point != piece.points.rend(); ++point) {
       outline.push_back(motor_at(*point));
     }
@@ -169,14 +173,12 @@ class PhasePanel {
       speeds.include(0.0);
     }
     for (const std::vector<DrawnPiece>& pieces : pieces_) {
-      for (const DrawnPiece& piece : pieces) {
-        for (const DrawnPoint& point : piece.points) {
-          for (const MapPoint& shaft : {load_at(point), motor_at(point)}) {
-            positions.include(shaft.x);
-            speeds.include(shaft.y);
-          }
+      for_each_point(pieces, [&](const DrawnPoint& point) {
+        for (const MapPoint& shaft : {load_at(point), motor_at(point)}) {
+          positions.include(shaft.x);
+          speeds.include(shaft.y);
         }
-      }
+      });
     }
     x_ = window_ != nullptr ? window_->positions : widened(positions, 0.05);
     y_ = window_ != nullptr ? window_->speeds : widened(speeds, 0.05);
@@ -199,7 +201,8 @@ class PhasePanel {
 
   void add_thin(MotionRole role, const std::vector<DrawnPiece>& pieces) {
     const bool is_of_motor = window_ != nullptr && window_->is_of_motor;
-    const Layer style = thin_style(role);
+    const Layer& style =
+        way_styles[static_cast<int>(role) - static_cast<int>(MotionRole::to_rest)].line;
     add(style, legend_of(is_of_motor ? "motor" : "load", style.name),
         line_of(pieces, is_of_motor ? motor_at : load_at, window_));
   }
@@ -233,21 +236,14 @@ class PhasePanel {
   /// Marks of the starts by what they lead to, and the borders between them.
   void add_starts() {
     if (window_ == nullptr) return;
-    const auto add_marks = [&](MotionRole leads, Layer layer) {
-      layer.kind = LayerKind::marks;
+    for (const WayStyle& style : way_styles) {
+      Layer marks = style.start;
+      marks.kind = LayerKind::marks;
       for (const DrawnStart& start : window_->starts) {
-        if (start.leads == leads) layer.points.push_back({start.position, start.speed});
+        if (start.leads == style.leads) marks.points.push_back({start.position, start.speed});
       }
-      if (!layer.points.empty()) panel.layers.push_back(std::move(layer));
-    };
-    add_marks(MotionRole::to_rest,
-              {.name = "start that leads to rest", .colour = "#444444", .size = 0.25});
-    add_marks(MotionRole::to_hunting,
-              {.name = "to hunting", .colour = load_colour, .mark = Mark::circle});
-    add_marks(MotionRole::running_away,
-              {.name = "to running away", .colour = "#aa0000", .mark = Mark::cross, .size = 0.65});
-    add_marks(MotionRole::not_known,
-              {.name = "to an end not known", .mark = Mark::plus, .size = 0.45});
+      if (!marks.points.empty()) panel.layers.push_back(std::move(marks));
+    }
     if (window_->borders.empty()) return;
     panel.layers.push_back({.name = "border between basins",
                             .colour = "#e69f00",

@@ -4,24 +4,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/lists.hpp"
 #include "general/attractors/search_setting.hpp"
 #include "picture/attractor_picture.hpp"
 
 namespace gearlash {
 namespace {
 
+/// The roles of ways have the order of BasinKind.
 MotionRole role_of(BasinKind kind) {
-  switch (kind) {
-    case BasinKind::rest:
-      return MotionRole::to_rest;
-    case BasinKind::hunting:
-      return MotionRole::to_hunting;
-    case BasinKind::running_away:
-      return MotionRole::running_away;
-    case BasinKind::not_known:
-      break;
-  }
-  return MotionRole::not_known;
+  return static_cast<MotionRole>(static_cast<int>(MotionRole::to_rest) + static_cast<int>(kind));
 }
 
 /// The largest distances of both shafts from the reference, rad and rad/s.
@@ -121,10 +113,9 @@ std::optional<StartPlane> plane_to_draw(const MotionPicture& cycles,
 }
 
 bool has_several_basins(const drive::AttractorSearch& search) {
-  return std::any_of(search.outcomes.begin(), search.outcomes.end(),
-                     [&](const drive::Outcome& outcome) {
-                       return kind_of(outcome.end) != kind_of(search.outcomes.front().end);
-                     });
+  return any_of(search.outcomes, [&](const drive::Outcome& outcome) {
+    return kind_of(outcome.end) != kind_of(search.outcomes.front().end);
+  });
 }
 
 void add_portrait(MotionPicture& picture, const drive::ReducedDrive& reduced,

@@ -8,6 +8,7 @@
 
 #include "base/extent.hpp"
 #include "base/special_numbers.hpp"
+#include "output/report_units.hpp"
 
 namespace gearlash {
 namespace {
@@ -173,7 +174,7 @@ Plot drawn(Plot plot) {
 }
 
 std::string label_of(const PlotAxis& axis) {
-  return axis.unit.empty() || axis.name.empty() ? axis.name : axis.name + " (" + axis.unit + ")";
+  return axis.name.empty() ? "" : name_with_unit(axis.name, axis.unit);
 }
 
 Axis span_of(const PlotAxis& axis) {

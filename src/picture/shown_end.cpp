@@ -1,7 +1,6 @@
 #include "picture/shown_end.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace gearlash {
 namespace {
@@ -23,17 +22,15 @@ double measured_period(const std::vector<DrawnPiece>& pieces, double from, const
   int passings = 0;
   double first = 0.0;
   double last = 0.0;
-  for (const DrawnPiece& piece : pieces) {
-    for (const DrawnPoint& point : piece.points) {
-      if (point.time < from) continue;
-      const double error = point.*shaft - point.reference;
-      if (error < swing.middle() - share * swing.width()) was_low = true;
-      if (!was_low || error < swing.middle() + share * swing.width()) continue;
-      was_low = false;
-      if (passings++ == 0) first = point.time;
-      last = point.time;
-    }
-  }
+  const auto pass = [&](const DrawnPoint& point) {
+    const double error = point.*shaft - point.reference;
+    if (error < swing.middle() - share * swing.width()) was_low = true;
+    if (!was_low || error < swing.middle() + share * swing.width()) return;
+    was_low = false;
+    if (passings++ == 0) first = point.time;
+    last = point.time;
+  };
+  for_each_point(pieces, pass, from);
   return passings > 1 ? (last - first) / (passings - 1) : 0.0;
 }
 
@@ -51,13 +48,11 @@ Bounds ShownEnd::shown_errors() const {
 ShownEnd end_of(const std::vector<DrawnPiece>& pieces, double end_time, double period) {
   ShownEnd end;
   const double last_third = third * end_time;
-  for (const DrawnPiece& piece : pieces) {
-    for (const DrawnPoint& point : piece.points) {
-      if (point.time < last_third) continue;
-      end.load_third.include(point.load_position - point.reference);
-      end.motor_third.include(point.motor_position - point.reference);
-    }
-  }
+  const auto include_in_third = [&](const DrawnPoint& point) {
+    end.load_third.include(point.load_position - point.reference);
+    end.motor_third.include(point.motor_position - point.reference);
+  };
+  for_each_point(pieces, include_in_third, last_third);
   const bool load_swings_more = end.load_third.width() >= end.motor_third.width();
   end.period = period > 0.0 ? period
                             : measured_period(pieces, last_third,
@@ -67,16 +62,14 @@ ShownEnd end_of(const std::vector<DrawnPiece>& pieces, double end_time, double p
   end.from =
       end.period > 0.0 ? std::max(last_third, end_time - periods_shown * end.period) : last_third;
   bool is_first = true;
-  for (const DrawnPiece& piece : pieces) {
-    for (const DrawnPoint& point : piece.points) {
-      if (point.time < end.from) continue;
-      end.load.include(point.load_position - point.reference);
-      end.motor.include(point.motor_position - point.reference);
-      if (is_first) end.reference = point.reference;
-      if (end.reference && *end.reference != point.reference) end.reference.reset();
-      is_first = false;
-    }
-  }
+  const auto include_in_end = [&](const DrawnPoint& point) {
+    end.load.include(point.load_position - point.reference);
+    end.motor.include(point.motor_position - point.reference);
+    if (is_first) end.reference = point.reference;
+    if (end.reference && *end.reference != point.reference) end.reference.reset();
+    is_first = false;
+  };
+  for_each_point(pieces, include_in_end, end.from);
   return end;
 }
 

@@ -179,15 +179,13 @@ class TimeColumn {
     if (!(response_.encoder_step > 0.0)) return {};
     MapCurve points;
     const DrawnPoint* before = nullptr;
-    for (const DrawnPiece& piece : response_.pieces) {
-      for (const DrawnPoint& point : piece.points) {
-        if (point.time < from_) continue;
-        if (before != nullptr) add_corners(*before, point, points);
-        points.push_back(
-            {point.time, std::round(steps(point)) * response_.encoder_step - origin(point)});
-        before = &point;
-      }
-    }
+    const auto read = [&](const DrawnPoint& point) {
+      if (before != nullptr) add_corners(*before, point, points);
+      points.push_back(
+          {point.time, std::round(steps(point)) * response_.encoder_step - origin(point)});
+      before = &point;
+    };
+    for_each_point(response_.pieces, read, from_);
     return points;
   }
 
@@ -303,15 +301,13 @@ Response response_of(const MotionPicture& picture) {
                     .encoder_share_of_load = reduced.sensing.load_share_of_position,
                     .positions = {},
                     .end = {}};
-  for (const DrawnPiece& piece : response.pieces) {
-    for (const DrawnPoint& point : piece.points) {
-      for (const double value :
-           {point.load_position - 0.5 * response.gap, point.load_position + 0.5 * response.gap,
-            point.motor_position, point.reference}) {
-        response.positions.include(value);
-      }
+  for_each_point(response.pieces, [&](const DrawnPoint& point) {
+    for (const double value :
+         {point.load_position - 0.5 * response.gap, point.load_position + 0.5 * response.gap,
+          point.motor_position, point.reference}) {
+      response.positions.include(value);
     }
-  }
+  });
   response.end = end_of(response.pieces, motion.end_time(), picture.hunting_period);
   return response;
 }

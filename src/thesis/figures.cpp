@@ -253,4 +253,21 @@ Plot plot_of(const Figure& figure, Progress& progress) {
                            std::move(panel));
 }
 
+std::vector<int> figure_numbers() {
+  std::vector<int> numbers;
+  for (const Figure& figure : thesis_figures()) numbers.push_back(figure.number);
+  for (const PhaseFigure& figure : thesis_phase_figures()) numbers.push_back(figure.number);
+  return numbers;
+}
+
+std::optional<Plot> figure_plot(int number, Progress& progress) {
+  for (const Figure& figure : thesis_figures()) {
+    if (figure.number == number) return plot_of(figure, progress);
+  }
+  for (const PhaseFigure& figure : thesis_phase_figures()) {
+    if (figure.number == number) return plot_of(figure);
+  }
+  return std::nullopt;
+}
+
 }  // namespace gearlash::thesis

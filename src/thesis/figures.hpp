@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,5 +65,11 @@ const std::vector<PhaseFigure>& thesis_phase_figures();
 /// The exact trajectories, and marks where the program prints, every 0.08 s. In the thesis's
 /// coordinate the motor and load positions are equal during contact on either face.
 Plot plot_of(const PhaseFigure& figure);
+
+/// Of both kinds, 2 … 15.
+std::vector<int> figure_numbers();
+
+/// The figure of that number; nothing for any other number.
+std::optional<Plot> figure_plot(int number, Progress& progress = no_progress());
 
 }  // namespace gearlash::thesis

@@ -1,8 +1,8 @@
 #include "core.hpp"
 
-#include <algorithm>
 #include <array>
 #include <exception>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -10,8 +10,7 @@
 #include "gearlash/design.hpp"
 #include "grid_reply.hpp"
 #include "input/axis_text.hpp"
-#include "limited_progress.hpp"
-#include "motion_reply.hpp"
+#include "model/reduced_drive.hpp"
 #include "output/answer_report.hpp"
 #include "output/drive_text.hpp"
 #include "output/json_writer.hpp"
@@ -19,6 +18,7 @@
 #include "output/records.hpp"
 #include "picture/answer_picture.hpp"
 #include "picture/attractor_picture.hpp"
+#include "picture/motion_style.hpp"
 #include "question/analyse.hpp"
 #include "thesis/figures.hpp"
 #include "web/reply_records.hpp"
@@ -82,6 +82,52 @@ MarginsReply reply_of(const HuntingMargin& margin, const DriveText& text,
 }
 
 }  // namespace
+
+/// Reports to the page, and stops the work after some seconds.
+class LimitedProgress : public Progress {
+ public:
+  LimitedProgress(const Host& host, double seconds)
+      : host_(host), until_(host.seconds() + seconds), next_report_(host.seconds()) {}
+
+  bool go_on(double share, std::size_t) override {
+    const double now = host_.seconds();
+    if (now >= next_report_) {
+      host_.report(share);
+      next_report_ = now + seconds_between_reports;
+    }
+    return now < until_;
+  }
+
+ private:
+  static constexpr double seconds_between_reports = 0.1;
+
+  const Host& host_;
+  double until_;
+  double next_report_;
+};
+
+/// Over time, and as two gears: the first motion of the picture. One with too many events to draw
+/// has a reason instead.
+ShownMotion motion_reply(const std::string& name, const MotionPicture& picture) {
+  const Motion& motion = picture.motions.front().motion;
+  ShownMotion shown{.name = name,
+                    .time_unit = is_normalized(picture.drive) ? "1/ω_n" : "s",
+                    .gap = picture.angle.from_radians(reduce(picture.drive).backlash)};
+  try {
+    shown.plot = drawn(time_plot(picture));
+    for_each_point(legible_curve(picture, motion), [&](const DrawnPoint& point) {
+      shown.load.push_back({point.time, point.load_position - point.reference});
+      shown.motor.push_back({point.time, point.motor_position - point.reference});
+    });
+  } catch (const InvalidInput& error) {
+    shown.reason = error.what();
+    return shown;
+  }
+  for (const MotionEvent& event : motion.events()) {
+    shown.events.push_back({event.time, std::string(event.what), std::string(event.mode_after)});
+  }
+  return shown;
+}
 
 /// One page: its drive and its last answer.
 class Core::Session {
@@ -193,12 +239,7 @@ class Core::Session {
   }
 
   static Plot thesis_figure(int number, Progress& progress) {
-    for (const thesis::PhaseFigure& figure : thesis::thesis_phase_figures()) {
-      if (figure.number == number) return drawn(plot_of(figure));
-    }
-    for (const thesis::Figure& figure : thesis::thesis_figures()) {
-      if (figure.number == number) return drawn(plot_of(figure, progress));
-    }
+    if (const auto plot = thesis::figure_plot(number, progress)) return drawn(*plot);
     refuse("figure", std::to_string(number), "must be the number of a figure: 2 to 15");
   }
 

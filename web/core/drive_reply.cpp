@@ -1,13 +1,9 @@
 #include "drive_reply.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <optional>
 
+#include "base/lists.hpp"
 #include "gearlash/design.hpp"
-#include "gearlash/parameter.hpp"
-#include "model/parameters.hpp"
 #include "question/family/family.hpp"
 
 namespace gearlash::web {
@@ -32,10 +28,6 @@ Slider slider(const Drive& drive, const Parameter& parameter, double value) {
   const double first = axis.values.front();
   const double low = !is_by_ratio ? 0.0 : first > 0.0 ? first : axis.values.at(1);
   return {low, axis.values.back(), is_by_ratio};
-}
-
-bool contains(const std::vector<std::string>& list, std::string_view path) {
-  return std::find(list.begin(), list.end(), path) != list.end();
 }
 
 void show_number(ParameterReply& reply, const WrittenDrive& written, const ShownUnits& units) {

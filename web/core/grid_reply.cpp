@@ -2,7 +2,6 @@
 
 #include <array>
 #include <string>
-#include <vector>
 
 #include "base/range_check.hpp"
 #include "gearlash/grid.hpp"
@@ -31,10 +30,9 @@ void require_few(const Grid& grid) {
   double points = 1.0;  // their product may be larger than a std::size_t of WebAssembly
   for (const Axis& axis : grid.axes) points *= static_cast<double>(axis.values.size());
   if (points <= most_points) return;
-  throw InvalidInput({{"points", exact_text(points),
-                       "must be at most " + exact_text(most_points) +
-                           " in the page; the command line has room for more",
-                       ""}});
+  refuse("points", exact_text(points),
+         "must be at most " + exact_text(most_points) +
+             " in the page; the command line has room for more");
 }
 
 }  // namespace
@@ -49,7 +47,7 @@ MapReply map_reply(const Json& request, const WrittenDrive& written, Progress& p
   require_few(grid);
   constexpr std::array quantities = {Quantity::growth_at_rest, Quantity::amplitude};
   table.table = Table(grid.size(), quantities);
-  const RowCount count = evaluate(Family(grid), grid, 0, table.table, progress);
+  const RowCount count = work_out(table, progress);
   add_borders(table, progress);
   return {.plot = drawn(map_plot(table, Quantity::amplitude)),
           .x = shown(grid.axes[1], written),

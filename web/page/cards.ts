@@ -1,6 +1,6 @@
 // The pictures in their cards: read and narrowed by the pointer, with buttons that save them.
 import { csv, save, savePng, svgFile } from './downloads';
-import { addButton } from './elements';
+import { addButton, made } from './elements';
 import { draw, moveMark, type Place, type Plot } from './plot';
 import { isOfTime, narrowed, type Pointed, readingsAt, type Spot, spotAt, spotOfTime } from './reading';
 
@@ -150,8 +150,7 @@ export class Cards {
   private addButtons(name: string): void {
     const article = document.getElementById(`card-${name}`)!;
     if (article.querySelector('.buttons')) return;
-    const line = document.createElement('p');
-    line.className = 'buttons';
+    const line = made('p', { className: 'buttons' });
     const add = (kind: string, does: (plot: Plot, file: string) => void): void => {
       const button = addButton(line, kind, () => does(this.plots.get(name)!, `${this.fileName()}-${name}.${kind.toLowerCase()}`));
       button.setAttribute('aria-label', `${article.querySelector('h2')?.textContent || 'Figure'} as ${kind}`);
@@ -159,9 +158,7 @@ export class Cards {
     add('SVG', (plot, file) => save(file, svgFile(plot), 'image/svg+xml'));
     add('PNG', (plot, file) => void savePng(file, plot).catch(this.tell));
     add('CSV', (plot, file) => save(file, curvesOf(plot), 'text/csv'));
-    const readings = document.createElement('span');
-    readings.className = 'readings';
-    line.append(readings);
+    line.append(made('span', { className: 'readings' }));
     article.append(line);
     this.listen(name);
   }

@@ -1,11 +1,10 @@
 // Files that the page gives: pictures, data and drives.
+import { made } from './elements';
 import { draw, type Plot } from './plot';
 
 export function save(name: string, content: Blob | string, type = 'text/plain'): void {
   const blob = typeof content === 'string' ? new Blob([content], { type }) : content;
-  const link = document.createElement('a');
-  link.href = URL.createObjectURL(blob);
-  link.download = name;
+  const link = made('a', { href: URL.createObjectURL(blob), download: name });
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
@@ -20,9 +19,7 @@ export async function savePng(name: string, plot: Plot): Promise<void> {
   image.src = URL.createObjectURL(new Blob([svg.replace('<svg ', `<svg width="${wide}" height="${high}" `)], { type: 'image/svg+xml' }));
   await image.decode();
   const sharpness = 3; // of print
-  const canvas = document.createElement('canvas');
-  canvas.width = Number(wide) * sharpness;
-  canvas.height = Number(high) * sharpness;
+  const canvas = made('canvas', { width: Number(wide) * sharpness, height: Number(high) * sharpness });
   canvas.getContext('2d')!.drawImage(image, 0, 0, canvas.width, canvas.height);
   URL.revokeObjectURL(image.src);
   const blob = await new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, 'image/png'));

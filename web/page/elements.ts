@@ -2,12 +2,13 @@
 
 export const byId = <T extends Element = HTMLElement>(id: string): T => document.getElementById(id) as unknown as T;
 
+/** A new element with these properties. */
+export const made = <Tag extends keyof HTMLElementTagNameMap>(tag: Tag, properties: Partial<HTMLElementTagNameMap[Tag]> = {}): HTMLElementTagNameMap[Tag] =>
+  Object.assign(document.createElement(tag), properties);
+
 /** A button at the end of `place`. */
 export function addButton(place: Element, text: string, clicked: () => void): HTMLButtonElement {
-  const button = document.createElement('button');
-  button.type = 'button';
-  button.textContent = text;
-  button.onclick = clicked;
+  const button = made('button', { type: 'button', textContent: text, onclick: clicked });
   place.append(button);
   return button;
 }

@@ -1,5 +1,5 @@
 // The inputs of a drive, made from the registry of parameters that the core sends.
-import { addButton } from './elements';
+import { addButton, made } from './elements';
 import { escapeText, inWords, typed } from './numbers';
 import type { DriveReply, Fault, Parameter, Slider } from './replies';
 
@@ -97,19 +97,17 @@ export class Inputs {
       sections.set(section, [...(sections.get(section) ?? []), parameter]);
     }
     for (const [section, parameters] of sections) {
-      const details = document.createElement('details');
-      details.dataset.section = section;
-      details.open = open.has(section) || parameters.some((parameter) => parameter.is_usual);
-      details.innerHTML = `<summary>${escapeText(titleOf(section))}</summary>`;
+      const list = (name: string, title: string, isOpen: boolean, rows: Parameter[]): HTMLDetailsElement => {
+        const details = made('details', { open: open.has(name) || isOpen, innerHTML: `<summary>${escapeText(title)}</summary>` });
+        details.dataset.section = name;
+        details.append(...rows.map((parameter) => this.row(parameter)));
+        return details;
+      };
       const [given, rest] = [parameters.filter((p) => !p.is_default || p.is_usual), parameters.filter((p) => p.is_default && !p.is_usual)];
-      for (const parameter of given) details.append(this.row(parameter));
+      const details = list(section, titleOf(section), parameters.some((parameter) => parameter.is_usual), given);
       if (rest.length > 0) {
-        const more = document.createElement('details');
+        const more = list(`${section}.more`, `${given.length > 0 ? 'more' : 'all'} (${rest.length})`, false, rest);
         more.className = 'more';
-        more.dataset.section = `${section}.more`;
-        more.open = open.has(more.dataset.section);
-        more.innerHTML = `<summary>${given.length > 0 ? 'more' : 'all'} (${rest.length})</summary>`;
-        for (const parameter of rest) more.append(this.row(parameter));
         details.append(more);
       }
       this.place.append(details);
@@ -119,8 +117,7 @@ export class Inputs {
 
   /** Sections that the drive lacks are added by a key of theirs. */
   private absent(drive: DriveReply, sections: Map<string, Parameter[]>): HTMLElement {
-    const line = document.createElement('p');
-    line.className = 'absent';
+    const line = made('p', { className: 'absent' });
     line.innerHTML = `Not in this drive: ${drive.absent.filter(({ name }) => name !== 'servo').map(({ name, contents }) => `<span title="${escapeText(contents)}">${escapeText(titleOf(name))}</span>`).join(', ')}. `;
     if (drive.absent.some(({ name }) => name === 'sampling') && sections.has('controller')) {
       addButton(line, 'Sample the controller', () => this.changed('sampling.period', '1 ms', false));
@@ -129,17 +126,12 @@ export class Inputs {
   }
 
   private row(parameter: Parameter): HTMLElement {
-    const row = document.createElement('div');
-    row.className = `row ${parameter.kind}`;
+    const row = made('div', { className: `row ${parameter.kind}` });
     const id = `${this.prefix}-${parameter.path.replace(/[^\w]/g, '-')}`;
-    const fault = document.createElement('p');
-    fault.className = 'fault';
-    fault.id = `${id}-fault`;
+    const fault = made('p', { className: 'fault', id: `${id}-fault` });
     row.innerHTML = `<label for="${id}">${escapeText(inWords(parameter.path))}</label>`;
     const isWord = parameter.kind === 'choice';
-    const field = document.createElement(isWord ? 'select' : 'input');
-    field.id = id;
-    field.title = `${parameter.path}: ${parameter.meaning}`;
+    const field = made(isWord ? 'select' : 'input', { id, title: `${parameter.path}: ${parameter.meaning}` });
     field.setAttribute('aria-describedby', fault.id);
     if (field instanceof HTMLInputElement) {
       field.autocomplete = 'off';
@@ -161,14 +153,12 @@ export class Inputs {
   }
 
   private slider(parameter: Parameter): HTMLInputElement {
-    const slider = document.createElement('input');
-    slider.type = 'range';
-    slider.min = '0';
-    slider.max = String(steps);
-    slider.step = '1';
+    const slider = made('input', {
+      type: 'range', min: '0', max: String(steps), step: '1',
+      oninput: () => this.dragged(parameter.path, true),
+      onchange: () => this.dragged(parameter.path, false),
+    });
     slider.setAttribute('aria-label', `${inWords(parameter.path)}, slider`);
-    slider.oninput = () => this.dragged(parameter.path, true);
-    slider.onchange = () => this.dragged(parameter.path, false);
     return slider;
   }
 
@@ -205,14 +195,13 @@ export class Inputs {
 
 /** The inputs of faults that belong to no field: values that a drive still needs. */
 export function missingInputs(faults: Fault[], changed: Changed): HTMLElement {
-  const list = document.createElement('ul');
+  const list = made('ul');
   for (const fault of faults) {
-    const item = document.createElement('li');
+    const item = made('li');
     const what = fault.value ? `${fault.path} = ${fault.value}` : fault.path;
     item.innerHTML = `<span><b>${escapeText(what)}</b> ${escapeText(fault.permitted)}${fault.where ? ` <small>(${escapeText(fault.where)})</small>` : ''}</span> `;
-    const field = document.createElement('input');
+    const field = made('input', { placeholder: 'number unit' });
     field.setAttribute('aria-label', fault.path);
-    field.placeholder = 'number unit';
     field.onchange = () => field.value.trim() && changed(fault.path, field.value.trim(), false);
     item.append(field);
     list.append(item);

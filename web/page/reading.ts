@@ -73,7 +73,8 @@ export function readingsAt(plot: Plot, { column, panel: pointed, x, y }: Spot): 
   const axis = panels[0]!.x;
   const readings = panels.map((panel) => {
     const values = [...valuesAt(panel, x, panel === pointed ? y : NaN)].filter(([, value]) => Number.isFinite(value));
-    const words = values.map(([name, value]) => `${name} ${short(value * powerOf(panel.y))}`.trim());
+    // "its limit, ±144 N m" names a value itself.
+    const words = values.map(([name, value]) => `${name.replace(/, ±.*/, '')} ${short(value * powerOf(panel.y))}`.trim());
     return words.length > 0 ? `${panel.y.name}: ${words.join(', ')}` : '';
   });
   return [`${axis.name}: ${short(x * powerOf(axis))}`, ...readings].filter(Boolean).join('; ');

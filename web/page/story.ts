@@ -1,5 +1,5 @@
 // The guided story: seven steps, each with one control and one sentence.
-import { addButton, byId, markCurrent } from './elements';
+import { addButton, byId, made, markCurrent } from './elements';
 import { type Changed, Inputs, only } from './inputs';
 import type { DriveText, Fault, Parameter } from './replies';
 
@@ -19,56 +19,25 @@ const servo = (numbers: Record<string, string>, restitution = ''): string =>
 const sample = { damping: '0.19', inertia_ratio: '2', friction_ratio: '0.1', backlash: '"0.3 rad"', natural_frequency: '"14.5 rad/s"' };
 const named = (toml: string, name: string): DriveText => ({ toml, name, settings: [] });
 
+const step = (title: string, path: string, cards: string[], sentence: string, drive = named(servo(sample), 'story.toml')): StoryStep => ({ title, sentence, drive, path, cards });
+
 export const storySteps = (joint: string): StoryStep[] => [
-  {
-    title: 'The gap',
-    sentence: 'Between the teeth there is a gap, the backlash: the motor turns through it before the load follows.',
-    drive: named(servo(sample), 'story.toml'),
-    path: 'servo.backlash',
-    cards: ['gears', 'time'],
-  },
-  {
-    title: 'The impact',
-    sentence: 'When the gap closes, the faces strike each other; the restitution is the share of the speed with which they part again.',
-    drive: named(servo({ ...sample, damping: '0.1', inertia_ratio: '1', friction_ratio: '0.2' }, '0.3'), 'story.toml'),
-    path: 'contact.restitution',
-    cards: ['time', 'gears'],
-  },
-  {
-    title: 'Growth at rest',
-    sentence: 'A tiny swing in the gap is multiplied by the growth at rest every half swing: above 1 it grows, below 1 it dies out.',
-    drive: named(servo(sample), 'story.toml'),
-    path: 'servo.damping',
-    cards: ['phase', 'map'],
-  },
-  {
-    title: 'The cycle',
-    sentence: 'The swing grows until friction takes as much energy as the loop feeds in, and then repeats for ever: a limit cycle, the hunting.',
-    drive: named(servo(sample), 'story.toml'),
-    path: 'servo.inertia_ratio',
-    cards: ['phase', 'gears'],
-  },
-  {
-    title: 'Friction',
-    sentence: 'Friction on the load damps the motion in the gap, where the motor’s friction and the loop cannot reach the load: the same total damping does more there.',
-    drive: named(servo(sample), 'story.toml'),
-    path: 'servo.friction_ratio',
-    cards: ['map', 'phase'],
-  },
-  {
-    title: 'The sensor’s place',
-    sentence: 'A sensor on the motor does not feel the gap, so the loop stops hunting, but the load is then known only to within the gap.',
-    drive: named(joint, 'first-servo.toml'),
-    path: 'sensor.position',
-    cards: ['time', 'phase'],
-  },
-  {
-    title: 'The cure',
-    sentence: 'Hunting ends at a border: the list shows, for each number of the servo, the nearest change that crosses it.',
-    drive: named(servo(sample), 'story.toml'),
-    path: 'servo.damping',
-    cards: ['changes', 'phase'],
-  },
+  step('The gap', 'servo.backlash', ['gears', 'time'],
+    'Between the teeth there is a gap, the backlash: the motor turns through it before the load follows.'),
+  step('The impact', 'contact.restitution', ['time', 'gears'],
+    'When the gap closes, the faces strike each other; the restitution is the share of the speed with which they part again.',
+    named(servo({ ...sample, damping: '0.1', inertia_ratio: '1', friction_ratio: '0.2' }, '0.3'), 'story.toml')),
+  step('Growth at rest', 'servo.damping', ['phase', 'map'],
+    'A tiny swing in the gap is multiplied by the growth at rest every half swing: above 1 it grows, below 1 it dies out.'),
+  step('The cycle', 'servo.inertia_ratio', ['phase', 'gears'],
+    'The swing grows until friction takes as much energy as the loop feeds in, and then repeats for ever: a limit cycle, the hunting.'),
+  step('Friction', 'servo.friction_ratio', ['map', 'phase'],
+    'Friction on the load damps the motion in the gap, where the motor’s friction and the loop cannot reach the load: the same total damping does more there.'),
+  step('The sensor’s place', 'sensor.position', ['time', 'phase'],
+    'A sensor on the motor does not feel the gap, so the loop stops hunting, but the load is then known only to within the gap.',
+    named(joint, 'first-servo.toml')),
+  step('The cure', 'servo.damping', ['changes', 'phase'],
+    'Hunting ends at a border: the list shows, for each number of the servo, the nearest change that crosses it.'),
 ];
 
 export class Story {
@@ -111,7 +80,7 @@ export class Story {
     const list = byId('story-steps');
     list.textContent = '';
     this.steps.forEach(({ title }, i) => {
-      const item = document.createElement('li');
+      const item = made('li');
       addButton(item, `${i + 1}. ${title}`, () => this.goTo(i + 1));
       list.append(item);
     });
