@@ -44,19 +44,16 @@ std::vector<std::size_t> chain_of(std::span<const double> values, std::size_t co
 SearchScope hurried() {
   constexpr std::size_t few = 3;
   constexpr double hidden_decay = 0.25;
-  const auto hunts = [](const drive::AttractorSearch& search) {
-    return search.count(drive::MotionEnd::cycle) > 0 ||
-           search.count(drive::MotionEnd::irregular) > 0;
-  };
+  const auto swings = [](const drive::AttractorSearch& search) { return search.swings(); };
   return {.suffices =
               [](const Answer& followed) {
                 return gearlash::hunts(followed.verdict) && is_decided(followed);
               },
           .is_enough =
-              [hunts](const drive::AttractorSearch& search) {
-                return hunts(search) && search.count(drive::MotionEnd::undecided) >= few;
+              [](const drive::AttractorSearch& search) {
+                return search.swings() && search.count(drive::MotionEnd::undecided) >= few;
               },
-          .may_hurry = hunts,
+          .may_hurry = swings,
           .tolerances = {.irregular = {.hidden_decay = hidden_decay}}};
 }
 
