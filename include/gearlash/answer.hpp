@@ -77,6 +77,10 @@ struct Cycle {
   double multiplier = 0.0;    ///< Floquet's, the largest modulus over a period
   double residual = 0.0;      ///< mismatch of the state after one period, as a share
   double impact_speed = 0.0;  ///< rad/s, |ω_M − ω_L| before the hardest impact; 0 without impacts
+  /// N m at the load's shaft, the largest between the faces while they are together, impacts aside.
+  /// With dry friction not while both shafts stand, where it is not determined. Empty where the
+  /// inertias are not known.
+  std::optional<double> mesh_torque{};
   double engaged_time = 0.0;          ///< s of a period, faces together
   double separated_time = 0.0;        ///< s of a period, faces apart
   std::size_t events_per_period = 0;  ///< closed form: impacts

@@ -20,6 +20,7 @@ enum class Quantity : std::uint8_t {
   frequency,
   multiplier,
   impact_speed,
+  mesh_torque,
   engaged_time,
   separated_time,
   motor_friction_loss,

@@ -76,6 +76,16 @@ bool stays_engaged(const ServoDynamics& dynamics, FaceSign face, double load_pos
   return face * mesh_torque_rate(dynamics, load_position, load_speed) >= 0.0;
 }
 
+double largest_mesh_torque(const ServoDynamics& dynamics, double load_position, double load_speed,
+                           double duration) {
+  const EngagedFlow torque{dynamics.damping, mesh_torque(dynamics, load_position, load_speed),
+                           mesh_torque_rate(dynamics, load_position, load_speed)};
+  const double turn = first_zero(torque.damping, torque.speed,
+                                 -2.0 * torque.damping * torque.speed - torque.position);
+  return std::max(std::abs(torque.position),
+                  std::abs(torque.at(std::min(turn, duration)).position));
+}
+
 SettlingBounces settling_bounces(const ServoDynamics& dynamics, FaceSign face, double load_position,
                                  double load_speed, double gap_speed) {
   constexpr double longest = 1e-5;

@@ -25,6 +25,12 @@ ImpactOutcome impact(const ServoDynamics& dynamics, double load_speed, double ga
 bool stays_engaged(const ServoDynamics& dynamics, FaceSign face, double load_position,
                    double load_speed);
 
+/// The largest |N| of faces engaged for a duration (infinite: for good), from a state on. N obeys
+/// the equation of the engaged flow, so it is largest at the start, at its first turn or at the
+/// end.
+double largest_mesh_torque(const ServoDynamics& dynamics, double load_position, double load_speed,
+                           double duration);
+
 /// The sum of the remaining bounces on one face.
 struct SettlingBounces {
   bool imminent = false;     ///< the closed form holds; the rest may be taken at once

@@ -1,5 +1,6 @@
 #include "closed_form/cycle_of_orbit.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "closed_form/extremes.hpp"
@@ -48,6 +49,14 @@ LimitCycle cycle_of_orbit(const NormalizedServo& servo, const ServoDynamics& dyn
   const Extremes range = extremes(period, 0.0, cycle.period);
   cycle.amplitude = range.load_amplitude();
   cycle.motor_amplitude = range.motor_amplitude();
+  cycle.mesh_torque = 0.0;
+  for (const Segment& segment : period.segments()) {
+    const Phase& phase = segment.phase;
+    if (phase.mode == Mode::separated || phase.mode == Mode::settling) continue;
+    cycle.mesh_torque = std::max(
+        cycle.mesh_torque, largest_mesh_torque(dynamics, phase.engaged.position,
+                                               phase.engaged.speed, segment.end - segment.start));
+  }
   const EnergyAccount books = period.energy_at(cycle.period);
   // The arrival that closes the period may fall just before or just after its end. So its impact is
   // not taken from the events but computed once, from the arrival itself.

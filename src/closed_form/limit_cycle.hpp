@@ -34,6 +34,8 @@ struct LimitCycle {
                                                                    ///< over a whole period
   double impact_speed = std::numeric_limits<double>::quiet_NaN();  ///< |v_M − v_L| before the
                                                                    ///< hardest impact
+  double mesh_torque = std::numeric_limits<double>::quiet_NaN();   ///< the largest |N| of engaged
+                                                                   ///< faces, units of K rad
   double engaged_time = std::numeric_limits<double>::quiet_NaN();  ///< a period's share
   double separated_time = std::numeric_limits<double>::quiet_NaN();  ///< a period's share
   double residual = std::numeric_limits<double>::quiet_NaN();  ///< relative mismatch of the state

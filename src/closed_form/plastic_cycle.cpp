@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/bracketed_root.hpp"
+#include "closed_form/contact_law.hpp"
 #include "closed_form/decay_integral.hpp"
 #include "closed_form/engaged_flow.hpp"
 #include "numeric/panel_quadrature.hpp"
@@ -126,6 +127,8 @@ LimitCycle plastic_cycle(const ServoDynamics& dynamics, const UnitHalfCycle& hal
   cycle.separated_time = 2.0 * half.flight_time;
   cycle.period = cycle.engaged_time + cycle.separated_time;
   cycle.impact_speed = -amplitude * half.gap_speed;
+  cycle.mesh_torque = amplitude * largest_mesh_torque(dynamics, half.load_position,
+                                                      half.common_speed, half.engaged_time);
   cycle.residual = closing_error(dynamics, flight, half);
   cycle.impacts_per_period = 2;
   cycle.settles = true;

@@ -67,6 +67,7 @@ Cycle cycle_of(const drive::FoundCycle& found, const drive::DriveSystem& system)
   cycle.multiplier = found.multiplier;
   cycle.residual = found.orbit.residual;
   cycle.impact_speed = found.impact_speed;
+  cycle.mesh_torque = found.mesh_torque;
   cycle.engaged_time = times.together;
   cycle.separated_time = times.apart;
   cycle.events_per_period = found.orbit.events.size();

@@ -15,8 +15,8 @@ TOOL = sys.argv.pop(1)
 SEED = 1960
 INPUTS = ["damping", "inertia_ratio", "friction_ratio", "backlash", "restitution"]
 QUANTITIES = ["growth_at_rest", "amplitude", "motor_amplitude", "period", "frequency", "multiplier",
-              "impact_speed", "engaged_time", "separated_time", "motor_friction_loss",
-              "load_friction_loss", "impact_loss", "residual"]
+              "impact_speed", "mesh_torque", "engaged_time", "separated_time",
+              "motor_friction_loss", "load_friction_loss", "impact_loss", "residual"]
 SWEEP = """
 [sweep]
 axes = ["friction-ratio=0.05:0.95:7", "damping = 0.1, 0.2, 0.5", "inertia-ratio=1/9:9:11:log"]
@@ -144,7 +144,7 @@ class ReadBack(unittest.TestCase):
         for name, variable in data.variables.items():
             self.assertIn("long_name", variable.attrs, name)
             if name != "verdict":
-                self.assertIn(variable.attrs["units"], ["1", "rad", "s", "Hz", "rad/s", "J"], name)
+                self.assertIn(variable.attrs["units"], ["1", "rad", "s", "Hz", "rad/s", "N m", "J"], name)
         self.assertEqual(data.attrs["sweep"], SWEEP)
         self.assertRegex(data.attrs["source"], r"^gearlash \d+\.\d+\.\d+$")
         self.assertEqual(data.attrs["history"], "gearlash sweep " + self.path("sweep.toml") +

@@ -290,15 +290,15 @@ TEST(SweepCommand, FaultsOfFileAndOptionsAreToldTogether) {
 
 TEST(SweepCommand, TellsBeforehandThatTheDiskIsTooSmall) {
   const Scratch scratch;
-  if (std::filesystem::space(scratch / "").available > 105'000'000'000) {
-    GTEST_SKIP() << "the disk has room for the largest sweep of 13 quantities";
+  if (std::filesystem::space(scratch / "").available > 113'000'000'000) {
+    GTEST_SKIP() << "the disk has room for the largest sweep of 14 quantities";
   }
   write(scratch / "sweep.toml",
         "[sweep]\naxes = [\"damping=0.1:0.6:1000000\", \"friction-ratio=0:1:1000\"]\n"
         "[servo]\ninertia_ratio = 1\n");
   const Outcome run = sweep_in(scratch);
   EXPECT_EQ(run.status, 3);
-  EXPECT_THAT(run.err, HasSubstr("a.nc: cannot be written: needs 105 GB, "));
+  EXPECT_THAT(run.err, HasSubstr("a.nc: cannot be written: needs 113 GB, "));
   EXPECT_EQ(scratch.file_count(), 1U);
 }
 

@@ -99,6 +99,30 @@ TEST(PropertyPlasticCycle, GrowthTendsToTheGrowthAtRest) {
   }
 }
 
+/// The largest J_L v̇ + F_L v of the load while the faces are together, by differences of its speed;
+/// at the impact, by those that follow.
+double sampled_mesh_torque(const NormalizedServo& servo, const Trajectory& motion) {
+  const ServoDynamics dynamics = servo_dynamics(servo);
+  constexpr int samples = 2000;
+  double largest = 0.0;
+  for (const Segment& segment : motion.segments()) {
+    constexpr double of_rounding = 1e-9;  // as the cycle starts, where its faces part
+    const bool is_short = segment.end - segment.start < of_rounding;
+    if (segment.phase.mode == Mode::separated || is_short) continue;
+    const double step = (segment.end - segment.start) / samples;
+    const auto torque_at = [&](int place) {
+      const double time = segment.start + step * place;
+      const double acceleration =
+          (motion.at(time + step).load_speed - motion.at(time - step).load_speed) / (2.0 * step);
+      return dynamics.load_inertia * acceleration +
+             dynamics.load_friction * motion.at(time).load_speed;
+    };
+    largest = std::max(largest, std::abs(3.0 * (torque_at(2) - torque_at(4)) + torque_at(6)));
+    for (int i = 2; i + 1 < samples; ++i) largest = std::max(largest, std::abs(torque_at(i)));
+  }
+  return largest;
+}
+
 TEST(PropertyPlasticCycle, EverythingAgreesWithASimulatedPeriod) {
   TracedDraws draws(604);
   for (int i = 0; i < 400 && !testing::Test::HasFailure(); ++i) {
@@ -137,6 +161,8 @@ TEST(PropertyPlasticCycle, EverythingAgreesWithASimulatedPeriod) {
       engaged += std::max(0.0, std::min(segment.end, cycle.period) - segment.start);
     }
     ASSERT_NEAR(engaged, cycle.engaged_time, 1e-9);
+    ASSERT_NEAR(cycle.mesh_torque, sampled_mesh_torque(servo, motion),
+                1e-6 * (cycle.mesh_torque + scale));
 
     const EnergyAccount start = motion.energy_at(offset);
     const EnergyAccount end = motion.energy_at(offset + cycle.period);

@@ -76,6 +76,7 @@ TEST(OracleAttractors, PlasticServosAreTheClosedForm) {
     EXPECT_NEAR(cycle.motor_amplitude, wanted.motor_amplitude, 1e-9 * wanted.motor_amplitude);
     EXPECT_NEAR(cycle.period(), wanted.period, 1e-9 * wanted.period);
     EXPECT_NEAR(cycle.impact_speed, wanted.impact_speed, 1e-9 * wanted.impact_speed);
+    EXPECT_NEAR(cycle.mesh_torque, wanted.mesh_torque, 1e-9 * wanted.mesh_torque);
     EXPECT_NEAR(cycle.multiplier, std::abs(wanted.multiplier), 1e-8);
   }
   EXPECT_GE(hunting, 10);
@@ -101,6 +102,7 @@ TEST(OracleAttractors, MirrorImagesCountAsOne) {
     EXPECT_NEAR(found.cycles[i].amplitude, exact.cycles[i].amplitude, 1e-9);
     EXPECT_NEAR(found.cycles[i].period(), exact.cycles[i].period, 1e-9);
     EXPECT_NEAR(found.cycles[i].multiplier, exact.cycles[i].multiplier, 1e-8);
+    EXPECT_NEAR(found.cycles[i].mesh_torque, exact.cycles[i].mesh_torque, 1e-9);
   }
   EXPECT_EQ(found.cycles[0].stability, Stability::stable);
   EXPECT_TRUE(found.cycles[0].has_mirror_image);
@@ -409,6 +411,70 @@ TEST(OracleAttractors, AFilteredSpeedIsTheFilteredDerivativeOfThePosition) {
   ASSERT_EQ(of_position.cycles.size(), 2U);
   EXPECT_TRUE(of_position.cycles[0].is_symmetric);
   expect_same_cycles(find_attractors(twisting_joint(5e3, true)), of_position);
+}
+
+// ---- the mesh torque ----------------------------------------------------------------------------
+
+/// The largest torque of a cycle by a rule for it, at 20,000 places of a period and where it is
+/// defined.
+template <class Torque>
+double sampled_torque(const AttractorSearch& found, const FoundCycle& cycle, const Torque& torque) {
+  constexpr int places = 20000;
+  const double from = cycle.orbit.start_time;
+  const double step = cycle.period() / places;
+  const auto motion =
+      simulate(found.system, cycle.orbit.start, {.from = from, .until = from + cycle.period()});
+  double largest = 0.0;
+  for (int i = 1; i < places; ++i) {
+    largest = std::max(largest, std::abs(torque(motion, from + step * i, 0.5 * step)));
+  }
+  return largest;
+}
+
+TEST(MeshTorque, OfATwistingMeshIsThatOfItsSpringAndDamping) {
+  const AttractorSearch found = find_attractors(twisting_joint(5e3, false));
+  ASSERT_EQ(found.cycles.size(), 2U);
+  for (const FoundCycle& cycle : found.cycles) {
+    const double sampled =
+        sampled_torque(found, cycle, [](const auto& motion, double time, double) {
+          const ShaftStates at = shafts_of(motion.at(time));
+          return 31e3 * (at.motor_position - at.load_position) +
+                 5.0 * (at.motor_speed - at.load_speed);
+        });
+    EXPECT_NEAR(cycle.mesh_torque, sampled, 1e-6 * sampled);
+    EXPECT_GE(cycle.mesh_torque, sampled * (1.0 - 1e-12));
+  }
+}
+
+/// Rigid faces, dry friction, a load torque and a reference beside 0: what accelerates the load.
+TEST(MeshTorque, OfRigidFacesIsWhatTheLoadNeeds) {
+  ReducedDrive drive = servo_drive(0.1, 2.0, 0.3);
+  drive.load.friction.coulomb = drive.load.friction.breakaway = 0.003;
+  drive.load_torque = 0.01;
+  drive.reference = 0.2;
+  const DriveSystem built = drive_system(drive);
+  const AttractorSearch found = find_attractors(drive);
+  ASSERT_FALSE(found.cycles.empty());
+  for (const FoundCycle& cycle : found.cycles) {
+    const double sampled =
+        sampled_torque(found, cycle, [&](const auto& motion, double time, double step) {
+          const auto state = motion.at(time);
+          const auto is_together = [&](double there) {
+            const auto at = motion.at(there);
+            return at.mode == state.mode &&
+                   built.modes.mode(at.mode).contact != ContactState::apart;
+          };
+          if (!is_together(time - step) || !is_together(time + step)) return 0.0;
+          const double before = shafts_of(motion.at(time - step)).load_speed;
+          const double after = shafts_of(motion.at(time + step)).load_speed;
+          const double speed = shafts_of(state).load_speed;
+          if (speed == 0.0) return 0.0;
+          return drive.load.inertia * (after - before) / (2.0 * step) +
+                 drive.load.friction.viscous * speed + std::copysign(0.003, speed) - 0.01;
+        });
+    EXPECT_NEAR(cycle.mesh_torque, sampled, 1e-3 * sampled);
+    EXPECT_GE(cycle.mesh_torque, sampled * (1.0 - 1e-7));
+  }
 }
 
 // ---- from one drive to its neighbour ------------------------------------------------------------

@@ -33,7 +33,7 @@ TEST(SweepFile, WhatIsVariedNeedNotBeGiven) {
       "'restitution=0,0.1', 'backlash=1 arcmin, 2 arcmin']\n",
       "s.toml");
   EXPECT_EQ(file.grid.size(), 32U);
-  EXPECT_EQ(file.quantities.size(), 13U);  // all that the closed form knows
+  EXPECT_EQ(file.quantities.size(), 14U);  // all that the closed form knows
   const SweepFile in_backlashes = parse_sweep(
       "[sweep]\naxes = ['damping=0.1,0.2']\n[servo]\ninertia_ratio = 1\nfriction_ratio = '1/9'\n",
       "s.toml");

@@ -1,3 +1,5 @@
+import json
+
 import numpy as np
 import pandas
 import pytest
@@ -88,6 +90,33 @@ def test_the_tool_maps_the_same(example, tool, tmp_path):
             for row in table.itertuples()}
     for point, amplitude in data["amplitude"].stack(point=data["amplitude"].dims).to_series().items():
         assert told[point] == amplitude
+
+
+@pytest.mark.parametrize("name", ["camera-head.toml", "first-servo.toml"])
+def test_a_quantity_is_wherever_quantities_are(name, example, tool, tmp_path):
+    """The mesh torque, in closed form and of a drive that is searched."""
+    file = example(name)
+    one = json.loads(tool("limit-cycle", file, "--format", "json"))["cycles"][0]["mesh_torque"]
+    drive = gearlash.Drive.from_toml(file)
+    assert gearlash.analyse(drive).value("mesh_torque") == one > 0.0
+    backlash = drive["gearbox.backlash"]
+    axis = f"gearbox.backlash={0.9 * backlash!r} rad:{1.1 * backlash!r} rad:3"
+    inertia = drive["load.inertia"]
+    axes = ["--x", axis, "--y", f"load.inertia={inertia!r} kg m2,{1.01 * inertia!r} kg m2"]
+    tool("map", file, *axes, "--quantity", "mesh_torque", "--output", tmp_path / "map.csv",
+         "--plot", f"map={tmp_path / 'map.svg'}")
+    table = pandas.read_csv(tmp_path / "map.csv", float_precision="round_trip")
+    told = table[table["load_inertia"] == inertia]["mesh_torque"].to_numpy()
+    assert told[1] == pytest.approx(one, rel=1e-6)
+    assert told[0] < told[1] < told[2]
+    assert "torque between the faces" in (tmp_path / "map.svg").read_text()
+    tool("map", file, *axes, "--output", tmp_path / "map.nc")
+    with xarray.open_dataset(tmp_path / "map.nc") as data:
+        assert data["mesh_torque"].attrs["units"] == "N m"
+        assert np.sort(data["mesh_torque"].values.ravel()) == pytest.approx(
+            np.sort(table["mesh_torque"]), rel=1e-12)
+    found = gearlash.design(drive, f"mesh-torque <= {one} N m", [axis])["gearbox.backlash"]
+    assert found.intervals[-1].high == pytest.approx(backlash, rel=1e-3)
 
 
 def test_the_data_are_named_as_in_the_files_of_the_tool(pd_drive, tool, tmp_path):

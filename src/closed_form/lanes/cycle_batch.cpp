@@ -63,6 +63,7 @@ void write_row(const CycleColumns& cycles, std::size_t row, Verdict verdict, dou
   write(Quantity::frequency, 1.0 / cycle.period);
   write(Quantity::multiplier, cycle.multiplier);
   write(Quantity::impact_speed, cycle.impact_speed);
+  write(Quantity::mesh_torque, cycle.mesh_torque);
   write(Quantity::engaged_time, cycle.engaged_time);
   write(Quantity::separated_time, cycle.separated_time);
   write(Quantity::motor_friction_loss, cycle.energy.motor_friction);
@@ -72,17 +73,11 @@ void write_row(const CycleColumns& cycles, std::size_t row, Verdict verdict, dou
 }
 
 /// The kernel's properties, in its order.
-constexpr std::array properties = {Quantity::amplitude,
-                                   Quantity::motor_amplitude,
-                                   Quantity::period,
-                                   Quantity::multiplier,
-                                   Quantity::impact_speed,
-                                   Quantity::engaged_time,
-                                   Quantity::separated_time,
-                                   Quantity::motor_friction_loss,
-                                   Quantity::load_friction_loss,
-                                   Quantity::impact_loss,
-                                   Quantity::residual};
+constexpr std::array properties = {
+    Quantity::amplitude,          Quantity::motor_amplitude, Quantity::period,
+    Quantity::multiplier,         Quantity::impact_speed,    Quantity::mesh_torque,
+    Quantity::engaged_time,       Quantity::separated_time,  Quantity::motor_friction_loss,
+    Quantity::load_friction_loss, Quantity::impact_loss,     Quantity::residual};
 static_assert(properties.size() == CycleBlock::property_count);
 constexpr std::size_t period_in_block = 2;
 static_assert(properties[period_in_block] == Quantity::period);

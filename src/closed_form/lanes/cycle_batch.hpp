@@ -30,19 +30,14 @@ VectorUnit widest_vector_unit();
 const char* name_of(VectorUnit unit);
 
 /// The quantities of a servo that have a closed form, beside its verdict.
-inline constexpr std::array solved_quantities = {Quantity::growth_at_rest,
-                                                 Quantity::amplitude,
-                                                 Quantity::motor_amplitude,
-                                                 Quantity::period,
-                                                 Quantity::frequency,
-                                                 Quantity::multiplier,
-                                                 Quantity::impact_speed,
-                                                 Quantity::engaged_time,
-                                                 Quantity::separated_time,
-                                                 Quantity::motor_friction_loss,
-                                                 Quantity::load_friction_loss,
-                                                 Quantity::impact_loss,
-                                                 Quantity::residual};
+inline constexpr std::array solved_quantities = {
+    Quantity::growth_at_rest,      Quantity::amplitude,
+    Quantity::motor_amplitude,     Quantity::period,
+    Quantity::frequency,           Quantity::multiplier,
+    Quantity::impact_speed,        Quantity::mesh_torque,
+    Quantity::engaged_time,        Quantity::separated_time,
+    Quantity::motor_friction_loss, Quantity::load_friction_loss,
+    Quantity::impact_loss,         Quantity::residual};
 
 /// Columns for the answers. Each has one row for each servo; a column that is left out is empty.
 /// Numbers are those of the normal form, in SI (ω_n = 1 rad/s, K = 1 N m/rad). A servo that cannot

@@ -397,6 +397,18 @@ class CycleLanes {
     return max(position_error, speed_error);
   }
 
+  /// As largest_mesh_torque() of contact_law.hpp, for a unit amplitude. At the turn N² is the form
+  /// Q(N, Ṅ), written as a sum of squares, that the engaged flow multiplies by e^{−2ζt}.
+  Real largest_mesh_torque() const {
+    const Real at_impact = mesh_torque(servo_, half_.load_position, half_.common_speed);
+    const Real rate = mesh_torque_rate(servo_, half_.load_position, half_.common_speed);
+    const Real rising = rate + servo_.damping * at_impact;
+    const Real swing = frequency_ * at_impact;
+    const Real turn = first_zero_after(rate, -2.0 * servo_.damping * rate - at_impact);
+    const Real turned = sqrt(rising * rising + swing * swing) * exp(-servo_.damping * turn);
+    return max(abs(at_impact), select(turn < half_.engaged_time, turned, abs(at_impact)));
+  }
+
   void write_properties(CycleBlock& block, std::size_t row) const {
     growth_.store_aligned(block.growth_at_rest + row);
     const Real failed =
@@ -437,6 +449,7 @@ class CycleLanes {
                            2.0 * half_.engaged_time + 2.0 * half_.flight_time,
                            slope * slope,
                            -amplitude * half_.gap_speed,
+                           amplitude * largest_mesh_torque(),
                            2.0 * half_.engaged_time,
                            2.0 * half_.flight_time,
                            square * losses.motor_friction,

@@ -148,6 +148,10 @@ AffineForm DriveForms::spring_torque(double face) const {
 AffineForm DriveForms::damping_torque() const { return compliant().damping * gap_speed(); }
 
 AffineForm DriveForms::mesh_torque(const DriveMode& mode) const {
+  if (is_engaged(mode)) {
+    return drive_.load.inertia * engaged_acceleration(mode) +
+           friction_torque(Side::load, mode.load) - torque_on_load();
+  }
   const double face = face_of(mode.contact);
   switch (mode.contact) {
     case ContactState::forward:

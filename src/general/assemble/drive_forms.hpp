@@ -82,7 +82,7 @@ class DriveForms {
   /// For compliant faces.
   hybrid::AffineForm spring_torque(double face) const;
   hybrid::AffineForm damping_torque() const;
-  /// On the load, for compliant or separated faces.
+  /// On the load. Not of rigid faces together while both shafts stand.
   hybrid::AffineForm mesh_torque(const DriveMode& mode) const;
 
   /// From outside: the load torque and gravity.

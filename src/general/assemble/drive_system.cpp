@@ -134,6 +134,12 @@ DriveSystem drive_system(const ReducedDrive& drive) {
   for (std::size_t i = 0; i < result.modes.others(); ++i) {
     result.motor_torques.push_back(forms->motor_torque(result.modes.mode(i)));
   }
+  result.mesh_torque = [forms](std::size_t index) -> std::optional<hybrid::AffineForm> {
+    const DriveMode mode = forms->modes().mode(index);
+    const bool is_undetermined = forms->is_engaged(mode) && forms->stands(mode, Side::load);
+    if (mode.contact == ContactState::apart || is_undetermined) return std::nullopt;
+    return forms->mesh_torque(mode);
+  };
   return result;
 }
 

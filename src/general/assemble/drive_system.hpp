@@ -1,6 +1,8 @@
 // A drive as a hybrid system.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "general/assemble/drive_mode.hpp"
@@ -22,6 +24,9 @@ struct DriveSystem {
   hybrid::AffineForm shape_input;  ///< of ReducedDrive::error_shape at the start
   /// By the mode's number, modulo their count: they depend on neither contact nor friction.
   std::vector<hybrid::AffineForm> motor_torques;
+
+  /// N m at the load's shaft, of a mode; empty where the faces are apart, or rigid ones stand.
+  std::function<std::optional<hybrid::AffineForm>(std::size_t mode)> mesh_torque;
 
   const hybrid::AffineForm& motor_torque(std::size_t mode) const {
     return motor_torques[mode % motor_torques.size()];

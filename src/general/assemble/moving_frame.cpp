@@ -37,10 +37,7 @@ class Rewriter {
     return frame_.scale.cwiseInverse().asDiagonal() * matrix * frame_.scale.asDiagonal();
   }
 
-  void rewrite(AffineForm& form) const {
-    form.offset += form.normal.dot(frame_.shift);
-    form.normal = form.normal.cwiseProduct(frame_.scale);
-  }
+  void rewrite(AffineForm& form) const { form = frame_.inside(std::move(form)); }
 
   void rewrite(std::vector<hybrid::Alternative>& alternatives) const {
     for (hybrid::Alternative& alternative : alternatives) {
@@ -110,6 +107,12 @@ Vector MovingFrame::inside(const Vector& numbers, double time) const {
 
 Vector MovingFrame::outside(const Vector& numbers, double time) const {
   return scale.cwiseProduct(numbers) + shift + drift * time;
+}
+
+AffineForm MovingFrame::inside(AffineForm form) const {
+  form.offset += form.normal.dot(shift);
+  form.normal = form.normal.cwiseProduct(scale);
+  return form;
 }
 
 bool is_carried_along(const hybrid::HybridSystem& system, const Vector& way) {

@@ -14,6 +14,8 @@ struct MovingFrame {
 
   hybrid::Vector inside(const hybrid::Vector& numbers, double time) const;
   hybrid::Vector outside(const hybrid::Vector& numbers, double time) const;
+  /// What it is outside, of numbers inside. Precondition: it does not change along the drift.
+  hybrid::AffineForm inside(hybrid::AffineForm form) const;
 };
 
 /// Whether moving all numbers along `way`, at any time, leaves the system unchanged: A way = 0, no

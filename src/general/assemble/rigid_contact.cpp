@@ -150,10 +150,8 @@ void add_engaged(const DriveForms& forms, const DriveMode& mode, hybrid::AffineM
   }
   const double face = face_of(mode.contact);
   const DriveMode apart = with(mode, &DriveMode::contact, ContactState::apart);
-  const AffineForm mesh = forms.drive().load.inertia * forms.engaged_acceleration(mode) +
-                          forms.friction_torque(Side::load, mode.load) - forms.torque_on_load();
-  hybrid::Transition parts =
-      transition("faces part", mesh, falling_on(face), forms.modes().index_of(apart));
+  hybrid::Transition parts = transition("faces part", forms.mesh_torque(mode), falling_on(face),
+                                        forms.modes().index_of(apart));
   parts.reset = parting(forms, face);
   built.transitions.push_back(std::move(parts));
   const double way = way_of(mode.motor) != 0.0 ? way_of(mode.motor) : way_of(mode.load);

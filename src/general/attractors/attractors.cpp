@@ -249,6 +249,7 @@ class Search {
   /// motor alone last. Removes the scale from the orbits.
   void finish() {
     for (FoundCycle& cycle : result_.cycles) {
+      cycle.mesh_torque = largest_mesh_torque(setting_, cycle.orbit);
       cycle.orbit = unscaled(cycle.orbit, setting_.frame.scale);
     }
     const std::vector<std::size_t> place = sort(result_.cycles, MotionEnd::cycle, [](auto& one) {

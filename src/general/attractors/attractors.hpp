@@ -42,6 +42,7 @@ struct FoundCycle {
   Extent amplitudes;          ///< rad, likewise
   double frequency = 0.0;     ///< rad/s, 2π/period
   double impact_speed = 0.0;  ///< rad/s, |ω_M − ω_L| at the hardest impact; 0 without impacts
+  double mesh_torque = 0.0;   ///< N m, the largest between the faces while they are together
   double multiplier = 0.0;    ///< the largest modulus of the orbit's
   double mismatch = 0.0;      ///< rad, by which a shaft misses its place after a period
   /// After half a period the drive is its mirror image about the reference.
@@ -192,8 +193,8 @@ AttractorSearch find_attractors(const ReducedDrive& drive, const AttractorOption
 /// motion or running away, all that there were and no other. Something new may have appeared then,
 /// and a search must find it, unless what was found `suffices`; where all these starts are
 /// undecided the first usual ones are asked for that too. Empty also where `known` was stopped, or
-/// has undecided starts beside some that rest. Of the options, starts and edges do not count. Throws
-/// InvalidInput.
+/// has undecided starts beside some that rest. Of the options, starts and edges do not count.
+/// Throws InvalidInput.
 std::optional<AttractorSearch> follow_attractors(const ReducedDrive& drive,
                                                  const AttractorSearch& known,
                                                  Progress& progress = no_progress(),

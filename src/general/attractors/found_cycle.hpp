@@ -21,6 +21,10 @@ bool agree(double a, double b, double scale, double share);
 FoundCycle measured(const SearchSetting& setting, const hybrid::PeriodicOrbit& orbit,
                     const SearchTolerances& tolerances);
 
+/// N m at the load's shaft, between the faces while they are together. Where rigid faces stand with
+/// dry friction it is not determined and left out.
+double largest_mesh_torque(const SearchSetting& setting, const hybrid::PeriodicOrbit& orbit);
+
 /// The larger of both amplitudes: the load may stand while the motor hunts within the gap.
 double extent_of(const FoundCycle& cycle);
 

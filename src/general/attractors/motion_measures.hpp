@@ -1,7 +1,9 @@
 // Measures a motion: its turns, the decay of its swings, the divergence of neighbours.
 #pragma once
 
+#include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "base/extent.hpp"
@@ -25,6 +27,11 @@ hybrid::HybridSystem with_turns(const hybrid::HybridSystem& system, const hybrid
 
 Watched watched(const hybrid::HybridSystem& system, hybrid::AffineForm value,
                 hybrid::AffineForm speed);
+
+/// The largest size of a form that is one of each mode's, empty where it is not looked at: at
+/// start, end, events and every turn between them. `system`: the motion's.
+double largest_size(const hybrid::Trajectory& motion, const hybrid::HybridSystem& system,
+                    const std::function<std::optional<hybrid::AffineForm>(std::size_t)>& form_of);
 
 struct Sample {
   double time = 0.0;

@@ -143,7 +143,13 @@ Answer with_backlash(Answer answer, double backlash) {
     cycle.amplitude *= factor;
     cycle.motor_amplitude *= factor;
     cycle.impact_speed *= factor;
-    cycle.energy.reset();
+    if (cycle.mesh_torque) *cycle.mesh_torque *= factor;
+    if (cycle.energy) {
+      for (double* loss :
+           {&cycle.energy->motor_friction, &cycle.energy->load_friction, &cycle.energy->impacts}) {
+        *loss *= factor * factor;
+      }
+    }
   }
   for (IrregularMotion& motion : answer.irregular) motion.amplitude *= factor;
   return answer;

@@ -67,8 +67,8 @@ class ServoLine {
   double present_;
 };
 
-/// The answer of the same drive with another backlash: its motions are proportional to it. Without
-/// energies. Precondition: an answer of a servo, with a backlash.
+/// The answer of the same drive with another backlash: its motions are proportional to it, their
+/// energies to its square. Precondition: an answer of a servo, with a backlash.
 Answer with_backlash(Answer answer, double backlash);
 
 }  // namespace gearlash

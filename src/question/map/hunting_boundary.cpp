@@ -67,20 +67,17 @@ std::optional<double> limit_where_hunting_ends(Quantity quantity, double backlas
   switch (quantity) {
     case Quantity::motor_amplitude:
       return 0.5 * backlash;
-    case Quantity::amplitude:
-    case Quantity::frequency:
-    case Quantity::impact_speed:
-    case Quantity::motor_friction_loss:
-    case Quantity::load_friction_loss:
-    case Quantity::impact_loss:
-      return 0.0;
     case Quantity::multiplier:
       return 1.0;
     case Quantity::period:
     case Quantity::separated_time:
       return infinity;
-    default:
+    case Quantity::center:
+    case Quantity::engaged_time:
+    case Quantity::residual:
       return std::nullopt;
+    default:
+      return info_of(quantity).scope == QuantityScope::motion ? std::optional(0.0) : std::nullopt;
   }
 }
 

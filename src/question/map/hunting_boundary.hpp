@@ -44,9 +44,9 @@ double hunting_end(const std::function<NormalizedServo(double place)>& servo_at,
                    double quiet);
 
 /// The limit of a quantity where hunting ends, with plastic contact: 0 for the load's amplitude,
-/// the speed, the losses and the frequency, half the backlash for the motor's amplitude, 1 for the
-/// multiplier, infinity for the period and the time apart. Empty if the limit depends on the place
-/// or does not exist.
+/// the speed, the torque, the losses and the frequency, half the backlash for the motor's
+/// amplitude, 1 for the multiplier, infinity for the period and the time apart. Empty if the limit
+/// depends on the place or does not exist.
 std::optional<double> limit_where_hunting_ends(Quantity quantity, double backlash);
 
 }  // namespace gearlash

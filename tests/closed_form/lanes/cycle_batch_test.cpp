@@ -32,19 +32,13 @@ Table one_by_one(const std::vector<NormalizedServo>& servos) {
     const LimitCycle* found = largest_stable(analysis);
     LimitCycle cycle = found != nullptr ? *found : LimitCycle{};
     if (found == nullptr) cycle.amplitude = analysis.irregular_amplitude;
-    const std::array values = {analysis.growth_at_rest,
-                               cycle.amplitude,
-                               cycle.motor_amplitude,
-                               cycle.period,
-                               1.0 / cycle.period,
-                               cycle.multiplier,
-                               cycle.impact_speed,
-                               cycle.engaged_time,
-                               cycle.separated_time,
-                               cycle.energy.motor_friction,
-                               cycle.energy.load_friction,
-                               cycle.energy.impacts,
-                               cycle.residual};
+    const std::array values = {analysis.growth_at_rest,     cycle.amplitude,
+                               cycle.motor_amplitude,       cycle.period,
+                               1.0 / cycle.period,          cycle.multiplier,
+                               cycle.impact_speed,          cycle.mesh_torque,
+                               cycle.engaged_time,          cycle.separated_time,
+                               cycle.energy.motor_friction, cycle.energy.load_friction,
+                               cycle.energy.impacts,        cycle.residual};
     table.column_of_verdicts()[row] = analysis.verdict;
     for (std::size_t i = 0; i < values.size(); ++i) {
       table.column(solved_quantities.at(i))[row] = values.at(i);
