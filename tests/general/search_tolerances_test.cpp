@@ -7,6 +7,7 @@
 #include "drives.hpp"
 #include "general/attractors/attractors.hpp"
 #include "general/attractors/found_cycle.hpp"
+#include "general/attractors/irregular_motion.hpp"
 #include "general/attractors/motion_watch.hpp"
 
 namespace gearlash::drive::search_tolerances_test {
@@ -52,6 +53,37 @@ TEST(SearchTolerances, RunningAway) {
   EXPECT_EQ(find_attractors(hunting, options).count(MotionEnd::diverges), 0U);
   options.tolerances.far_grown = 1e-6;
   EXPECT_EQ(find_attractors(hunting, options).count(MotionEnd::diverges), 2U);
+}
+
+/// Periods that scatter by a half of their mean, over 50 of them.
+SteadyMotion scattering(double period) {
+  SteadyMotion motion;
+  motion.ranges.resize(static_cast<std::size_t>(search_setting(hunting).own));
+  for (Extent& range : motion.ranges) range.include(Bounds{-1.0, 1.0});
+  IrregularFound& found = motion.found;
+  found.amplitude = found.motor_amplitude = found.half_swing = 1.0;
+  found.period = period;
+  found.period_deviation = 0.5 * period;
+  found.watched = 50.0 * period;
+  found.swings = 100;
+  return motion;
+}
+
+TEST(SearchTolerances, PeriodsThatDifferByChanceAreThoseOfOneMotion) {
+  const SearchSetting setting = search_setting(hunting);
+  const IrregularTolerances tolerances;
+  const auto are_one = [&](const SteadyMotion& one, const SteadyMotion& other) {
+    return is_same(one, other, setting, tolerances);
+  };
+  // 1.96 standard errors of the difference: 1.96 * 0.5 * sqrt(2 / 50) = 0.196.
+  EXPECT_TRUE(are_one(scattering(1.0), scattering(1.17)));
+  EXPECT_FALSE(are_one(scattering(1.0), scattering(1.3)));
+  SteadyMotion regular = scattering(1.0);
+  SteadyMotion slower = scattering(1.17);
+  regular.found.period_deviation = slower.found.period_deviation = 0.0;
+  EXPECT_FALSE(are_one(regular, slower));
+  slower.found.period = not_a_number;
+  EXPECT_FALSE(are_one(regular, slower));
 }
 
 /// What a load did that swung about 0 with these amplitudes.

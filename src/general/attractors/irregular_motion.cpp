@@ -196,6 +196,12 @@ bool is_sure(const IrregularFound& found, const IrregularTolerances& tolerances,
 
 namespace {
 
+/// By how much two means of one motion may differ: at 95 %, but by `least` at least.
+double apart_by_chance(double error, double other_error, double least) {
+  constexpr double normal = 1.96;
+  return std::max(least, normal * std::hypot(error, other_error));
+}
+
 bool is_alike(const IrregularFound& one, const IrregularFound& other, const SearchSetting& setting,
               const IrregularTolerances& tolerances) {
   const double extent = std::max(other.amplitude, other.motor_amplitude);
@@ -208,12 +214,13 @@ bool is_alike(const IrregularFound& one, const IrregularFound& other, const Sear
   const double share = std::min(one.swings, other.swings) < tolerances.enough_swings
                            ? tolerances.error_of_means
                            : tolerances.steady_statistics;
+  const double apart = (one.is_motor_alone ? tolerances.same_ranges : share) * other.period;
   return one.is_motor_alone == other.is_motor_alone &&
          same(one.amplitude, other.amplitude, tolerances.same_ranges) &&
          same(one.motor_amplitude, other.motor_amplitude, tolerances.same_ranges) &&
          same(one.half_swing, other.half_swing, share) &&
-         agree(one.period, other.period, other.period,
-               one.is_motor_alone ? tolerances.same_ranges : share);
+         agree(one.period, other.period, 1.0,
+               apart_by_chance(error_of_period(one), error_of_period(other), apart));
 }
 
 /// The drive's own numbers. In place positions go along with the reference.
@@ -334,19 +341,6 @@ bool stands_while_driven(const Watch& watch, const Stretch& stretch, const Searc
          are_alike(stretch.last, watch.before, setting, tolerances.irregular.steady_statistics);
 }
 
-namespace {
-
-/// By how much two means of one motion may differ: at 95 %, but by steady_statistics at least and
-/// by same_motion at most.
-double apart_by_chance(double error, double other_error, double mean,
-                       const IrregularTolerances& tolerances) {
-  constexpr double normal = 1.96;
-  return std::clamp(normal * std::hypot(error, other_error), tolerances.steady_statistics * mean,
-                    tolerances.same_motion * mean);
-}
-
-}  // namespace
-
 std::size_t place_among(const std::vector<IrregularFound>& known, const IrregularFound& found,
                         const IrregularTolerances& tolerances) {
   const double share = tolerances.same_motion;
@@ -358,13 +352,14 @@ std::size_t place_among(const std::vector<IrregularFound>& known, const Irregula
     };
     // Its mean swings are better known than its extremes, which are larger the longer it is
     // watched.
+    const auto has_same_mean = [&](double mean, double error, double other, double other_error) {
+      const double apart = apart_by_chance(error, other_error, tolerances.steady_statistics * mean);
+      return agree(other, mean, 1.0, std::min(apart, share * mean));
+    };
     const bool has_same_means =
-        agree(one.half_swing, found.half_swing, 1.0,
-              apart_by_chance(error_of_half_swing(one), error_of_half_swing(found),
-                              found.half_swing, tolerances)) &&
-        agree(one.period, found.period, 1.0,
-              apart_by_chance(error_of_period(one), error_of_period(found), found.period,
-                              tolerances));
+        has_same_mean(found.half_swing, error_of_half_swing(found), one.half_swing,
+                      error_of_half_swing(one)) &&
+        has_same_mean(found.period, error_of_period(found), one.period, error_of_period(one));
     const bool has_same_extremes =
         agree(one.amplitude, found.amplitude, extent, share) &&
         (found.is_motor_alone ||
