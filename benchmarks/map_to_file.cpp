@@ -23,6 +23,7 @@
 
 #include "gearlash/version.hpp"
 #include "output/grid_netcdf.hpp"
+#include "output/output_file.hpp"
 #include "question/map/grid_pieces.hpp"
 #include "question/map/hunting_boundary.hpp"
 
