@@ -23,6 +23,7 @@
 
 #include "gearlash/version.hpp"
 #include "output/grid_netcdf.hpp"
+#include "output/output_file.hpp"
 #include "question/map/grid_pieces.hpp"
 #include "question/map/hunting_boundary.hpp"
 
@@ -153,7 +154,7 @@ void make_file(const Grid& grid, MapTimes& fastest) {
   const Spent file = spent_on([&] {
     const std::vector<Quantity> quantities(solved_quantities.begin(), solved_quantities.end());
     GridNetcdf netcdf = GridNetcdf::create(
-        output.hidden_file(), output.shown_name(),
+        output.descriptor_of_file(), output.shown_name(),
         {.grid = grid, .quantities = quantities, .provenance = {command_text, version}});
     std::vector<double> growth;
     growth.reserve(grid.size());
@@ -163,7 +164,6 @@ void make_file(const Grid& grid, MapTimes& fastest) {
       growth.insert(growth.end(), column.begin(), column.end());
     });
     netcdf.write_boundary(hunting_boundary(grid, growth));
-    netcdf.close();
   });
   const Spent commit = spent_on([&] { output.commit(); });
   if ((file + commit).clock < fastest.whole().clock) {

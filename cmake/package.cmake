@@ -67,7 +67,6 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_TOOL_PACKAGE_NAME gearlash)
 set(CPACK_DEBIAN_TOOL_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_TOOL_PACKAGE_SHLIBDEPS ON)  # linked libraries
-set(CPACK_DEBIAN_TOOL_PACKAGE_DEPENDS "${NetCDF_PACKAGE}")  # loaded at run time
 set(CPACK_DEBIAN_TOOL_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
 set(CPACK_DEBIAN_TOOL_DESCRIPTION "limit cycles of geared servos with backlash
 Gearlash reads a data sheet and answers whether the servo hunts, how big and
@@ -77,7 +76,7 @@ size to choose.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libgearlash-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "libfmt-dev, libnlopt-dev, ${NetCDF_PACKAGE}, libtbb-dev, libtomlplusplus-dev")
+    "libfmt-dev, libnlopt-dev, libtbb-dev, libtomlplusplus-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "limit cycles of geared servos with backlash (C++ library)
 Headers and static libraries of Gearlash, with its CMake package and its
 pkg-config files.")

@@ -142,12 +142,11 @@ void write_table(const GridTask& task, const GridTable& table, const RowCount& c
   const auto sink = [&](std::string_view text) { output.write(text); };
   if (ending_of(task.table_file) == ".csv") return write_grid_csv(table, sink);
   if (ending_of(task.table_file) == ".json") return write_grid_json(table, sink);
-  GridNetcdf file = GridNetcdf::create(output.hidden_file(), output.shown_name(),
+  GridNetcdf file = GridNetcdf::create(output.descriptor_of_file(), output.shown_name(),
                                        {task.grid, quantities_of(task), table.provenance, ""});
   file.write({0, table.table, count});
   if (table.target) file.write_target(table.kinds);
   if (table.hunting_boundary) file.write_boundary(*table.hunting_boundary);
-  file.close();
 }
 
 }  // namespace
@@ -264,7 +263,7 @@ RowCount write_netcdf(const GridTask& task, const Provenance& provenance, const 
   constexpr std::size_t points_at_a_time = std::size_t{1} << 15U;  // 3 MB, which caches hold
   const std::vector<Quantity> quantities = quantities_of(task);
   GridNetcdf file =
-      GridNetcdf::create(output.hidden_file(), output.shown_name(),
+      GridNetcdf::create(output.descriptor_of_file(), output.shown_name(),
                          {.grid = task.grid, .quantities = quantities, .provenance = provenance});
   std::vector<double> growth_at_rest;
   if (task.has_boundary) growth_at_rest.reserve(task.grid.size());
@@ -281,7 +280,6 @@ RowCount write_netcdf(const GridTask& task, const Provenance& provenance, const 
     ProgressPart at_end(progress, 1.0, 1.0);
     file.write_boundary(hunting_boundary(task.grid, growth_at_rest, at_end));
   }
-  file.close();
   return count;
 }
 

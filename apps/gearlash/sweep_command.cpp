@@ -93,7 +93,7 @@ void add_sweep_command(const Command& app, Action& action) {
       sweep_explanation + help_footer(sweep_examples), run);
   command.add_option("SWEEP.toml", options.file, "Read the axes and the drive from this file",
                      {.is_required = true});
-  command.add_option("--output FILE", options.output, "Write this NetCDF-4 file (.nc)",
+  command.add_option("--output FILE", options.output, "Write this NetCDF file (.nc)",
                      {.is_required = true});
   command.add_flag("--resume", options.resume, "Continue a sweep that was stopped or killed");
   add_limit_options(command, options.limits);

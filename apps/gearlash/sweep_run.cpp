@@ -67,8 +67,9 @@ namespace {
 
 /// The progress of an unfinished sweep.
 struct SweepRecord {
-  RowCount count;   ///< of the points done
-  Checksum data{};  ///< of their values
+  RowCount count;       ///< of the points done
+  Checksum data{};      ///< of their values
+  std::string command;  ///< that began it, which is written into the data
 };
 
 /// The unfinished files. While one exists, no other program can have one of the same files.
@@ -118,7 +119,8 @@ class SweepPart {
                         .searched = json.at("searched"),
                         .refused = json.at("refused"),
                         .unproved = json.at("unproved")},
-              .data = Checksum(json.at("checksum_of_data").get<std::uint64_t>())};
+              .data = Checksum(json.at("checksum_of_data").get<std::uint64_t>()),
+              .command = json.at("command")};
     } catch (const Json::exception&) {  // it has the checksum of a record, and is none
       refuse_changed();
     }
@@ -129,6 +131,7 @@ class SweepPart {
     const RowCount& count = record.count;
     Json json = {{"kind", kind},
                  {"version", contents.provenance.version},
+                 {"command", contents.provenance.command},
                  {"points", contents.grid.size()},
                  {"points_done", count.points()},
                  {"side_by_side", count.solved.side_by_side},
@@ -154,6 +157,8 @@ class SweepPart {
   }
 
   const std::filesystem::path& data() const { return data_; }
+  /// Of the data, open to read and write.
+  int descriptor() const { return descriptor_; }
   /// Bytes of the data on the disk.
   std::size_t bytes() const {
     constexpr std::size_t block = 512;  // as stat counts
@@ -260,14 +265,12 @@ void add(Checksum& checksum, const Table& table, const std::vector<Quantity>& qu
 GridNetcdf reopened(const SweepPart& part, const GridContents& contents,
                     const SweepRecord& recorded) {
   try {
-    GridNetcdf file = GridNetcdf::reopen(part.data(), part.shown_output(), contents);
+    GridNetcdf file = GridNetcdf::reopen(part.descriptor(), part.shown_output(), contents);
     Checksum found;
     Table table;
     const std::size_t done = recorded.count.points();
     for (std::size_t first = 0; first < done; first += table.rows()) {
-      const std::size_t rows =
-          box_length(contents.grid, first, std::min(done - first, longest_piece));
-      table = Table(rows, contents.quantities);
+      table = Table(std::min(done - first, longest_piece), contents.quantities);
       file.read(first, table);
       add(found, table, contents.quantities);
     }
@@ -287,12 +290,13 @@ RowCount run_sweep(const SweepFile& sweep, const Provenance& provenance,
     part.refuse_output("must have no unfinished sweep beside it: continue " + part.shown_files() +
                        " with --resume, or remove both to start again");
   }
-  const GridContents contents{sweep.grid, sweep.quantities, provenance, sweep.text};
+  GridContents contents{sweep.grid, sweep.quantities, provenance, sweep.text};
   SweepRecord recorded = part.is_begun() ? part.read_record(contents) : SweepRecord{};
   require_room(part, netcdf_bytes(contents));
   const bool is_new = recorded.count.points() == 0;
+  if (!is_new) contents.provenance.command = recorded.command;
   if (is_new) part.write_record(contents, recorded);
-  GridNetcdf file = is_new ? GridNetcdf::create(part.data(), part.shown_output(), contents)
+  GridNetcdf file = is_new ? GridNetcdf::create(part.descriptor(), part.shown_output(), contents)
                            : reopened(part, contents, recorded);
   const RowCount count = evaluate_in_pieces(
       sweep.grid, sweep.quantities, recorded.count.points(), longest_piece,
@@ -307,7 +311,6 @@ RowCount run_sweep(const SweepFile& sweep, const Provenance& provenance,
       },
       progress, cli::steady_seconds);
   if (count.stopped) return recorded.count;
-  file.close();
   part.finish();
   return recorded.count;
 }

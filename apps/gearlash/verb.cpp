@@ -152,7 +152,7 @@ bool is_within_means(const std::function<void()>& work) {
     report_lines("not enough memory");
   } catch (const std::system_error& error) {
     if (error.code() != std::errc::resource_unavailable_try_again) throw;
-    report_lines("no thread or process could be started: " + error.code().message());
+    report_lines("no thread could be started: " + error.code().message());
   }
   return false;
 }

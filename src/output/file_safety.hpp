@@ -13,7 +13,7 @@ enum class FileLock {
 };
 
 /// Locks the whole file for this descriptor without waiting. The lock belongs to the descriptor: it
-/// stays when HDF5 opens, locks and closes the same file.
+/// stays when the program opens and closes the same file elsewhere.
 FileLock lock_file(int descriptor);
 
 std::filesystem::path folder_of(const std::filesystem::path& file);

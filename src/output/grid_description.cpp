@@ -3,6 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <utility>
 
 #include "base/lists.hpp"
 #include "gearlash/parameter.hpp"
@@ -50,38 +55,104 @@ std::vector<std::pair<std::string, std::string>> attributes_of_file(const GridCo
   return attributes;
 }
 
-std::vector<NetcdfDimension> describe_axes(NetcdfFile& file, const Grid& grid) {
-  std::vector<NetcdfDimension> dimensions = of_each(grid.axes, [&](const Axis& axis) {
-    return file.add_dimension(column_name(axis.path), axis.values.size());
-  });
-  for (std::size_t i = 0; i < grid.axes.size(); ++i) {
-    const NamedParameter parameter = named_parameter(grid.axes[i], grid.drive);
-    const NetcdfVariable variable =
-        file.add_numbers(parameter.name, {dimensions[i]}, parameter.meaning, parameter.unit);
-    file.set_attribute(variable, "path", parameter.path);
-    file.set_attribute(variable, "spacing", spacing_of(grid.axes[i]));
-    if (!parameter.words.empty()) file.set_attribute(variable, "words", parameter.words);
-  }
-  return dimensions;
+std::string boundary_name(const Axis& axis) { return "hunting_boundary_" + column_name(axis.path); }
+
+namespace {
+
+constexpr std::array target_words = {PlaceKind::not_known, PlaceKind::missed, PlaceKind::met};
+
+NetcdfVariable numbers(std::string name, std::vector<std::size_t> dimensions, std::string meaning,
+                       std::string unit) {
+  return {.name = std::move(name),
+          .type = NetcdfType::numbers,
+          .dimensions = std::move(dimensions),
+          .attributes = {{"long_name", std::move(meaning)}, {"units", std::move(unit)}}};
 }
 
-std::string describe_fixed_numbers(NetcdfFile& file, const Grid& grid) {
-  std::string names;
-  for (const FixedNumber& number : fixed_numbers(grid)) {
-    const NamedParameter& parameter = number.parameter;
-    file.add_numbers(parameter.name, {}, parameter.meaning, parameter.unit);
-    names += (names.empty() ? "" : " ") + parameter.name;
-  }
-  return names;
+/// Whole numbers from 0 on that stand for words (the CF conventions' "flags").
+NetcdfVariable flags(std::string name, std::vector<std::size_t> dimensions, std::string meaning,
+                     const std::vector<std::string>& words) {
+  std::vector<signed char> values(words.size());
+  std::iota(values.begin(), values.end(), static_cast<signed char>(0));
+  return {.name = std::move(name),
+          .type = NetcdfType::flags,
+          .dimensions = std::move(dimensions),
+          .attributes = {{"flag_values", std::move(values)},
+                         {"flag_meanings", listed(words, std::identity(), " ")},
+                         {"long_name", std::move(meaning)}}};
 }
 
-void write_parameters(NetcdfFile& file, const Grid& grid) {
+/// Each axis is a dimension with a variable of its name.
+void describe_axes(NetcdfDescription& description, const Grid& grid) {
   for (const Axis& axis : grid.axes) {
-    file.write(file.variable(column_name(axis.path)), {{0}, {axis.values.size()}}, axis.values);
+    const NamedParameter parameter = named_parameter(axis, grid.drive);
+    NetcdfVariable variable =
+        numbers(parameter.name, {description.dimensions.size()}, parameter.meaning, parameter.unit);
+    variable.attributes.push_back({"path", parameter.path});
+    variable.attributes.push_back({"spacing", spacing_of(axis)});
+    if (!parameter.words.empty()) variable.attributes.push_back({"words", parameter.words});
+    variable.values = axis.values;
+    description.dimensions.push_back({parameter.name, axis.values.size()});
+    description.variables.push_back(std::move(variable));
   }
-  for (const FixedNumber& number : fixed_numbers(grid)) {
-    file.write(file.variable(number.parameter.name), NetcdfBox{}, std::span(&number.value, 1));
+}
+
+/// A list of points for each axis.
+void describe_boundary(NetcdfDescription& description, const Grid& grid, std::size_t points) {
+  const std::size_t dimension = description.dimensions.size();
+  description.dimensions.push_back({"hunting_boundary_point", points});
+  for (const Axis& axis : grid.axes) {
+    description.variables.push_back(
+        numbers(boundary_name(axis), {dimension},
+                named_parameter(axis, grid.drive).meaning +
+                    ", where hunting ends (growth at rest 1); NaN between curves",
+                unit_of(axis, grid.drive)));
   }
+}
+
+}  // namespace
+
+NetcdfDescription description_of(const GridContents& contents, const GridExtras& extras) {
+  const Grid& grid = contents.grid;
+  NetcdfDescription description;
+  for (const auto& [name, text] : attributes_of_file(contents)) {
+    description.attributes.push_back({name, text});
+  }
+  describe_axes(description, grid);
+  std::vector<std::size_t> all_axes(grid.axes.size());
+  std::iota(all_axes.begin(), all_axes.end(), std::size_t{0});
+  std::string coordinates;
+  for (const auto& [parameter, value] : fixed_numbers(grid)) {
+    description.variables.push_back(numbers(parameter.name, {}, parameter.meaning, parameter.unit));
+    description.variables.back().values = {value};
+    coordinates += (coordinates.empty() ? "" : " ") + parameter.name;
+  }
+  const auto add_answer = [&](NetcdfVariable variable) {
+    if (!coordinates.empty()) variable.attributes.push_back({"coordinates", coordinates});
+    description.variables.push_back(std::move(variable));
+  };
+  add_answer(flags(verdict_name, all_axes, "verdict on the drive", verdict_words()));
+  for (const Quantity quantity : contents.quantities) {
+    const QuantityInfo& info = info_of(quantity);
+    NetcdfVariable variable = numbers(std::string(info.name), all_axes, std::string(info.meaning),
+                                      std::string(info.unit));
+    variable.attributes.push_back({"missing_value", std::numeric_limits<double>::quiet_NaN()});
+    add_answer(std::move(variable));
+  }
+  if (extras.has_target) {
+    description.variables.push_back(
+        flags(target_name, all_axes, "whether the drive meets the target",
+              of_each(target_words, [](PlaceKind word) { return one_word(name_of(word)); })));
+  }
+  if (extras.boundary_points > 0) describe_boundary(description, grid, extras.boundary_points);
+  return description;
+}
+
+std::vector<std::byte> target_flags(std::span<const PlaceKind> kinds) {
+  return of_each(kinds, [](PlaceKind kind) {
+    const auto* const word = std::find(target_words.begin(), target_words.end(), kind);
+    return static_cast<std::byte>(word - target_words.begin());
+  });
 }
 
 std::string one_word(std::string_view words) {

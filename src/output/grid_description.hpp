@@ -1,6 +1,8 @@
 // What the data of a grid say of the grid itself: axes, fixed numbers, origin.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -9,6 +11,7 @@
 #include "gearlash/grid.hpp"
 #include "output/netcdf_file.hpp"
 #include "output/report_units.hpp"
+#include "question/map/map_regions.hpp"
 
 namespace gearlash {
 
@@ -49,11 +52,20 @@ struct FixedNumber {
 
 std::vector<FixedNumber> fixed_numbers(const Grid& grid);
 
-/// Declares the axes as dimensions with their coordinates. Returns the dimensions.
-std::vector<NetcdfDimension> describe_axes(NetcdfFile& file, const Grid& grid);
-/// Declares the fixed numbers as variables. Returns their names, separated by blanks.
-std::string describe_fixed_numbers(NetcdfFile& file, const Grid& grid);
-/// Writes the values of both, after the description.
-void write_parameters(NetcdfFile& file, const Grid& grid);
+/// The names of variables; those of quantities and axes are their own.
+inline constexpr char verdict_name[] = "verdict";
+inline constexpr char target_name[] = "target";
+std::string boundary_name(const Axis& axis);
+
+/// What a file has besides the answers of every grid.
+struct GridExtras {
+  bool has_target = false;          ///< whether each point meets a target
+  std::size_t boundary_points = 0;  ///< of a map, gaps included; 0: no boundary
+};
+/// Dimensions, attributes and variables, those of the extras last.
+NetcdfDescription description_of(const GridContents& contents, const GridExtras& extras);
+
+/// How flags store whether a point meets a target.
+std::vector<std::byte> target_flags(std::span<const PlaceKind> kinds);
 
 }  // namespace gearlash

@@ -1,15 +1,14 @@
 #include "output/netcdf_file.hpp"
 
-#include <dlfcn.h>
 #include <fcntl.h>
-#include <netcdf.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <boost/endian/conversion.hpp>
 #include <cerrno>
-#include <limits>
-#include <numeric>
 #include <system_error>
-#include <utility>
 
 #include "base/lists.hpp"
 #include "output/output_file.hpp"
@@ -17,212 +16,226 @@
 namespace gearlash {
 namespace {
 
-/// A function of NetCDF's library. The library is loaded at the first call, because loading it and
-/// the forty libraries that it needs takes longer than most commands. It is never unloaded, because
-/// HDF5 does not support that. Throws OutputError if the library is missing.
-void* function_of_library(const char* name) {
-  static void* const library = dlopen(GEARLASH_NETCDF_SONAME, RTLD_NOW | RTLD_LOCAL);
-  void* const function = library == nullptr ? nullptr : dlsym(library, name);
-  if (function == nullptr) {
-    throw OutputError(std::string("NetCDF files cannot be written without ") +
-                      GEARLASH_NETCDF_SONAME + " (Debian: " + GEARLASH_NETCDF_PACKAGE + ")");
-  }
-  errno = 0;  // loading may have set it
-  return function;
+constexpr unsigned tag_of_dimensions = 10;
+constexpr unsigned tag_of_variables = 11;
+constexpr unsigned tag_of_attributes = 12;
+
+/// Everything in a file begins at a multiple of 4 bytes.
+std::size_t padded(std::size_t bytes) { return (bytes + 3) / 4 * 4; }
+
+std::size_t bytes_of(const NetcdfVariable& variable, const NetcdfDescription& description) {
+  std::size_t bytes = variable.type == NetcdfType::numbers ? sizeof(double) : 1;
+  for (const std::size_t index : variable.dimensions) bytes *= description.dimensions[index].length;
+  return padded(bytes);
 }
 
-template <class Function>
-struct Loaded {
-  const char* name;
-
-  template <class... Arguments>
-  auto operator()(Arguments... arguments) const {
-    return reinterpret_cast<Function*>(function_of_library(name))(arguments...);
+/// Appends what the format's grammar names.
+class HeaderWriter {
+ public:
+  HeaderWriter(std::string& head, bool is_wide) : bytes_of_count_(is_wide ? 8 : 4), head_(head) {
+    head_ += "CDF";
+    put(is_wide ? 5 : 2, 1);
+    put_count(0);  // of records, which no variable has
   }
+
+  /// The most significant byte first.
+  void put(std::uint64_t number, unsigned bytes) {
+    while (bytes-- > 0) head_ += static_cast<char>(number >> (8 * bytes));
+  }
+  void put_count(std::size_t count) { put(count, bytes_of_count_); }
+  void put_type(NetcdfType type) { put(static_cast<std::uint64_t>(type), 4); }
+  void put_text(std::string_view text) {
+    put_count(text.size());
+    head_ += text;
+    head_.resize(padded(head_.size()), '\0');
+  }
+  /// `put_one` puts an element.
+  template <class List, class PutOne>
+  void put_list(unsigned tag, const List& list, const PutOne& put_one) {
+    put(list.empty() ? 0 : tag, 4);
+    put_count(list.size());
+    for (const auto& one : list) put_one(one);
+  }
+  void put_attributes(const std::vector<NetcdfAttribute>& attributes) {
+    put_list(tag_of_attributes, attributes, [&](const NetcdfAttribute& attribute) {
+      put_text(attribute.name);
+      std::visit([&](const auto& value) { put_value(value); }, attribute.value);
+    });
+  }
+  void put_number(double number) { put(std::bit_cast<std::uint64_t>(number), sizeof number); }
+
+ private:
+  void put_value(const std::string& text) {
+    put_type(NetcdfType::text);
+    put_text(text);
+  }
+  void put_value(double number) {
+    put_type(NetcdfType::numbers);
+    put_count(1);
+    put_number(number);
+  }
+  void put_value(const std::vector<signed char>& flags) {
+    put_type(NetcdfType::flags);
+    put_text(std::string(flags.begin(), flags.end()));
+  }
+
+  unsigned bytes_of_count_;
+  std::string& head_;
 };
 
-// These hide the header's declarations of the same names.
-constexpr Loaded<decltype(::nc_strerror)> nc_strerror{"nc_strerror"};
-constexpr Loaded<decltype(::nc_create)> nc_create{"nc_create"};
-constexpr Loaded<decltype(::nc_open)> nc_open{"nc_open"};
-constexpr Loaded<decltype(::nc_def_dim)> nc_def_dim{"nc_def_dim"};
-constexpr Loaded<decltype(::nc_def_var)> nc_def_var{"nc_def_var"};
-constexpr Loaded<decltype(::nc_def_var_chunking)> nc_def_var_chunking{"nc_def_var_chunking"};
-constexpr Loaded<decltype(::nc_def_var_fill)> nc_def_var_fill{"nc_def_var_fill"};
-constexpr Loaded<decltype(::nc_put_att_double)> nc_put_att_double{"nc_put_att_double"};
-constexpr Loaded<decltype(::nc_put_att_schar)> nc_put_att_schar{"nc_put_att_schar"};
-constexpr Loaded<decltype(::nc_put_att_text)> nc_put_att_text{"nc_put_att_text"};
-constexpr Loaded<decltype(::nc_enddef)> nc_enddef{"nc_enddef"};
-constexpr Loaded<decltype(::nc_redef)> nc_redef{"nc_redef"};
-constexpr Loaded<decltype(::nc_inq_varid)> nc_inq_varid{"nc_inq_varid"};
-constexpr Loaded<decltype(::nc_put_vara_double)> nc_put_vara_double{"nc_put_vara_double"};
-constexpr Loaded<decltype(::nc_put_vara_schar)> nc_put_vara_schar{"nc_put_vara_schar"};
-constexpr Loaded<decltype(::nc_get_vara_double)> nc_get_vara_double{"nc_get_vara_double"};
-constexpr Loaded<decltype(::nc_get_vara_schar)> nc_get_vara_schar{"nc_get_vara_schar"};
-constexpr Loaded<decltype(::nc_inq_attlen)> nc_inq_attlen{"nc_inq_attlen"};
-constexpr Loaded<decltype(::nc_get_att_text)> nc_get_att_text{"nc_get_att_text"};
-constexpr Loaded<decltype(::nc_sync)> nc_sync{"nc_sync"};
+/// What a system call returns that no signal interrupts.
+template <class Call>
+auto uninterrupted(const Call& call) {
+  while (true) {
+    const auto result = call();
+    if (result >= 0 || errno != EINTR) return result;
+  }
+}
 
-/// The system's reason, such as "No space left on device", is clearer than "NetCDF: HDF error". It
-/// is also more exact than "Permission denied", the status of every file that HDF5 cannot create.
-[[noreturn]] void refuse(const std::string& shown_name, int status, int system_error) {
-  const bool is_of_the_system = status == NC_EHDFERR || status == EACCES;
-  const std::string reason = is_of_the_system && system_error != 0
-                                 ? std::generic_category().message(system_error)
-                                 : nc_strerror(status);
-  throw OutputError(shown_name + ": cannot be written: " + reason);
+/// Makes the file so long. Its room on the disk is claimed too if the file system can do that, so
+/// that a disk that is too full is reported before the work. 0 if it is done.
+int claim(int descriptor, off_t bytes) {
+#ifdef __linux__
+  const int claimed = uninterrupted([&] { return fallocate(descriptor, 0, 0, bytes); });
+  if (claimed == 0 || (errno != EOPNOTSUPP && errno != ENOSYS)) return claimed;
+#endif
+  return uninterrupted([&] { return ftruncate(descriptor, bytes); });
+}
+
+/// Calls `transfer`, pwrite or pread, until all bytes are through. False if it fails.
+template <class Transfer, class Byte>
+bool transfer_all(Transfer transfer, int descriptor, std::span<Byte> bytes, std::size_t place) {
+  while (!bytes.empty()) {
+    const ssize_t done = uninterrupted([&] {
+      return transfer(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(place));
+    });
+    if (done == 0) errno = ENODATA;  // the file ends
+    if (done <= 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(done));
+    place += static_cast<std::size_t>(done);
+  }
+  return true;
 }
 
 }  // namespace
 
-template <class Call, class... Arguments>
-void NetcdfFile::require(Call call, Arguments... arguments) const {
-  errno = 0;
-  const int status = call(id_, arguments...);
-  if (status != NC_NOERR) refuse(shown_name_, status, errno);
-}
-
-template <class Call>
-NetcdfFile NetcdfFile::opened(Call call, const std::filesystem::path& path, std::string shown_name,
-                              int mode) {
-  int id = 0;
-  errno = 0;
-  const int status = call(path.c_str(), mode, &id);
-  if (status != NC_NOERR) refuse(shown_name, status, errno);
-  return {id, path, std::move(shown_name)};
-}
-
-NetcdfFile NetcdfFile::create(const std::filesystem::path& path, std::string shown_name) {
-  return opened(nc_create, path, std::move(shown_name), NC_NETCDF4 | NC_CLOBBER);
-}
-
-NetcdfFile NetcdfFile::reopen(const std::filesystem::path& path, std::string shown_name) {
-  return opened(nc_open, path, std::move(shown_name), NC_WRITE);
-}
-
-NetcdfDimension NetcdfFile::add_dimension(const std::string& name, std::size_t length) {
-  NetcdfDimension dimension = 0;
-  require(nc_def_dim, name.c_str(), length, &dimension);
-  return dimension;
-}
-
-NetcdfVariable NetcdfFile::define(const std::string& name, int type,
-                                  const std::vector<NetcdfDimension>& dimensions) {
-  NetcdfVariable variable = 0;
-  require(nc_def_var, name.c_str(), type, static_cast<int>(dimensions.size()), dimensions.data(),
-          &variable);
-  if (!dimensions.empty()) {
-    require(nc_def_var_chunking, variable, NC_CONTIGUOUS, nullptr);
-    require(nc_def_var_fill, variable, NC_NOFILL, nullptr);
+NetcdfLayout layout_of(const NetcdfDescription& description, std::size_t begin,
+                       std::size_t largest) {
+  NetcdfLayout layout{.head = {}, .header_bytes = 0, .places = {}, .end = begin};
+  const bool is_wide = any_of(description.variables, [&](const NetcdfVariable& variable) {
+    return bytes_of(variable, description) > largest;
+  });
+  HeaderWriter header(layout.head, is_wide);
+  header.put_list(tag_of_dimensions, description.dimensions, [&](const NetcdfDimension& dimension) {
+    header.put_text(dimension.name);
+    header.put_count(dimension.length);
+  });
+  header.put_attributes(description.attributes);
+  header.put_list(tag_of_variables, description.variables, [&](const NetcdfVariable& variable) {
+    const std::size_t bytes = bytes_of(variable, description);
+    header.put_text(variable.name);
+    header.put_count(variable.dimensions.size());
+    for (const std::size_t index : variable.dimensions) header.put_count(index);
+    header.put_attributes(variable.attributes);
+    header.put_type(variable.type);
+    header.put_count(bytes);
+    header.put(layout.end, 8);
+    layout.places.emplace_back(variable.name, layout.end);
+    layout.end += bytes;
+  });
+  layout.header_bytes = layout.head.size();
+  layout.head.resize(std::max(layout.header_bytes, begin), '\0');
+  for (const NetcdfVariable& variable : description.variables) {
+    for (const double value : variable.values) header.put_number(value);
   }
-  return variable;
+  return layout;
 }
 
-NetcdfVariable NetcdfFile::add_numbers(const std::string& name,
-                                       const std::vector<NetcdfDimension>& dimensions,
-                                       const std::string& long_name, const std::string& units) {
-  const NetcdfVariable variable = define(name, NC_DOUBLE, dimensions);
-  set_attribute(variable, "long_name", long_name);
-  set_attribute(variable, "units", units);
-  return variable;
+NetcdfFile NetcdfFile::create(int descriptor, std::string shown_name, NetcdfLayout layout) {
+  NetcdfFile file(descriptor, std::move(shown_name), std::move(layout));
+  if (uninterrupted([&] { return ftruncate(descriptor, 0); }) != 0) file.refuse("written");
+  file.begin();
+  return file;
 }
 
-void NetcdfFile::declare_nan_missing(NetcdfVariable variable) {
-  const double missing = std::numeric_limits<double>::quiet_NaN();
-  require(nc_put_att_double, variable, "missing_value", NC_DOUBLE, std::size_t{1}, &missing);
-  attributes_.push_back({variable, "missing_value", 1});
-}
-
-NetcdfVariable NetcdfFile::add_flags(const std::string& name,
-                                     const std::vector<NetcdfDimension>& dimensions,
-                                     const std::string& long_name,
-                                     const std::vector<std::string>& meanings) {
-  const NetcdfVariable variable = define(name, NC_BYTE, dimensions);
-  std::vector<signed char> values(meanings.size());
-  std::iota(values.begin(), values.end(), static_cast<signed char>(0));
-  require(nc_put_att_schar, variable, "flag_values", NC_BYTE, values.size(), values.data());
-  attributes_.push_back({variable, "flag_values", values.size()});
-  set_attribute(variable, "flag_meanings", listed(meanings, std::identity(), " "));
-  set_attribute(variable, "long_name", long_name);
-  return variable;
-}
-
-void NetcdfFile::set_attribute(NetcdfVariable variable, const std::string& name,
-                               const std::string& text) {
-  require(nc_put_att_text, variable, name.c_str(), text.size(), text.c_str());
-  attributes_.push_back({variable, name, text.size()});
-}
-
-void NetcdfFile::set_attribute_of_file(const std::string& name, const std::string& text) {
-  set_attribute(NC_GLOBAL, name, text);
-}
-
-void NetcdfFile::end_description() {
-  require(nc_enddef);
-  const NetcdfFile found = opened(nc_open, path_, shown_name_, NC_NOWRITE);
-  for (const Attribute& attribute : attributes_) {
-    std::size_t length = 0;
-    found.require(nc_inq_attlen, attribute.variable, attribute.name.c_str(), &length);
-    if (length != attribute.length) refuse(shown_name_, NC_EATTMETA, 0);
+NetcdfFile NetcdfFile::reopen(int descriptor, std::string shown_name, NetcdfLayout layout) {
+  NetcdfFile file(descriptor, std::move(shown_name), std::move(layout));
+  const std::string& expected = file.layout_.head;
+  std::string head(expected.size(), '\0');
+  const bool has_length = lseek(descriptor, 0, SEEK_END) == static_cast<off_t>(file.layout_.end);
+  if (has_length) file.get(std::as_writable_bytes(std::span(head)), 0);
+  if (head != expected) {
+    throw OutputError(file.shown_name_ +
+                      ": is damaged, or describes another grid than the one to go on with");
   }
-  attributes_.clear();
+  return file;
 }
 
-void NetcdfFile::resume_description() { require(nc_redef); }
-
-NetcdfVariable NetcdfFile::variable(const std::string& name) const {
-  NetcdfVariable variable = 0;
-  require(nc_inq_varid, name.c_str(), &variable);
-  return variable;
+void NetcdfFile::extend(NetcdfLayout layout) {
+  layout_ = std::move(layout);
+  begin();
 }
 
-void NetcdfFile::write(NetcdfVariable variable, const NetcdfBox& box,
-                       std::span<const double> values) {
-  require(nc_put_vara_double, variable, box.start.data(), box.extent.data(), values.data());
+/// The room first: a header never names values beyond the file's end.
+void NetcdfFile::begin() {
+  if (claim(descriptor_, static_cast<off_t>(layout_.end)) != 0) refuse("written");
+  put(std::as_bytes(std::span(layout_.head)), 0);
 }
 
-void NetcdfFile::write(NetcdfVariable variable, const NetcdfBox& box,
-                       std::span<const signed char> flags) {
-  require(nc_put_vara_schar, variable, box.start.data(), box.extent.data(), flags.data());
+void NetcdfFile::write(std::string_view variable, std::size_t first,
+                       std::span<const double> numbers) {
+  std::array<std::uint64_t, 8192> words;  // 64 kB, which caches hold
+  std::size_t place = place_of(variable) + first * sizeof(double);
+  while (!numbers.empty()) {
+    const auto part = numbers.first(std::min(numbers.size(), words.size()));
+    std::transform(part.begin(), part.end(), words.begin(), [](double number) {
+      return boost::endian::native_to_big(std::bit_cast<std::uint64_t>(number));
+    });
+    put(std::as_bytes(std::span(words).first(part.size())), place);
+    numbers = numbers.subspan(part.size());
+    place += part.size_bytes();
+  }
 }
 
-void NetcdfFile::read(NetcdfVariable variable, const NetcdfBox& box,
-                      std::span<double> values) const {
-  require(nc_get_vara_double, variable, box.start.data(), box.extent.data(), values.data());
+void NetcdfFile::write(std::string_view variable, std::size_t first,
+                       std::span<const std::byte> flags) {
+  put(flags, place_of(variable) + first);
 }
 
-void NetcdfFile::read(NetcdfVariable variable, const NetcdfBox& box,
-                      std::span<signed char> flags) const {
-  require(nc_get_vara_schar, variable, box.start.data(), box.extent.data(), flags.data());
+void NetcdfFile::read(std::string_view variable, std::size_t first,
+                      std::span<double> numbers) const {
+  get(std::as_writable_bytes(numbers), place_of(variable) + first * sizeof(double));
+  for (double& number : numbers) {
+    const auto word = std::bit_cast<std::uint64_t>(number);
+    number = std::bit_cast<double>(boost::endian::big_to_native(word));
+  }
 }
 
-std::string NetcdfFile::attribute_of_file(const std::string& name) const {
-  std::size_t length = 0;
-  require(nc_inq_attlen, NC_GLOBAL, name.c_str(), &length);
-  std::string text(length, '\0');
-  require(nc_get_att_text, NC_GLOBAL, name.c_str(), text.data());
-  return text;
-}
-
-void NetcdfFile::begin_flush() const {
-#ifdef SYNC_FILE_RANGE_WRITE  // Linux
-  const int descriptor = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  // A length of 0 stands for the whole file.
-  static_cast<void>(sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE));
-  ::close(descriptor);
-#endif
+void NetcdfFile::read(std::string_view variable, std::size_t first,
+                      std::span<std::byte> flags) const {
+  get(flags, place_of(variable) + first);
 }
 
 void NetcdfFile::flush() {
-  require(nc_sync);
-  const int descriptor = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool brought = descriptor >= 0 && fsync(descriptor) == 0;
-  const int system_error = errno;
-  if (descriptor >= 0) ::close(descriptor);
-  if (!brought) refuse(shown_name_, NC_EHDFERR, system_error);
+  if (uninterrupted([&] { return fsync(descriptor_); }) != 0) refuse("written");
 }
 
-void NetcdfFile::close() { require(nc_sync); }
+void NetcdfFile::put(std::span<const std::byte> bytes, std::size_t place) {
+  if (!transfer_all(pwrite, descriptor_, bytes, place)) refuse("written");
+}
+
+void NetcdfFile::get(std::span<std::byte> bytes, std::size_t place) const {
+  if (!transfer_all(pread, descriptor_, bytes, place)) refuse("read");
+}
+
+std::size_t NetcdfFile::place_of(std::string_view variable) const {
+  return first_of(layout_.places, [&](const auto& place) { return place.first == variable; })
+      ->second;
+}
+
+void NetcdfFile::refuse(const char* action) const {
+  throw OutputError(shown_name_ + ": cannot be " + action + ": " +
+                    std::generic_category().message(errno));
+}
 
 }  // namespace gearlash

@@ -1,101 +1,94 @@
-// Writing a NetCDF-4 file: dimensions, variables and attributes by name, errors as exceptions.
+// Files in NetCDF's classic format: numbers and flags over named dimensions.
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
+#include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace gearlash {
 
-/// Identifiers of the NetCDF library.
-using NetcdfDimension = int;
-using NetcdfVariable = int;
-
-/// A box of indices: its start and extent in each dimension.
-struct NetcdfBox {
-  std::vector<std::size_t> start;
-  std::vector<std::size_t> extent;
+struct NetcdfDimension {
+  std::string name;
+  std::size_t length;  ///< not 0
 };
 
-/// Every member throws OutputError, naming the file as `shown_name`, if the library reports an
-/// error (disk full, no permission, a file of another layout).
-///
-/// The library's own file stays open, because HDF5 (1.10.8) crashes as it closes a file if the last
-/// write fails, and at the end of a program in which any write has failed. So the program ends by
-/// _exit. The library's close would only add the mark that the file is closed, which readers do not
-/// need.
+struct NetcdfAttribute {
+  std::string name;
+  std::variant<std::string, double, std::vector<signed char>> value;
+};
+
+enum class NetcdfType : std::uint8_t { flags = 1, text = 2, numbers = 6 };  ///< as in the file
+
+struct NetcdfVariable {
+  std::string name;
+  NetcdfType type;                      ///< no text
+  std::vector<std::size_t> dimensions;  ///< their indices, the last fastest; empty for one value
+  std::vector<NetcdfAttribute> attributes;
+  std::vector<double> values = {};  ///< known from the beginning; else empty
+};
+
+struct NetcdfDescription {
+  std::vector<NetcdfDimension> dimensions;
+  std::vector<NetcdfAttribute> attributes;  ///< of the file
+  std::vector<NetcdfVariable> variables;    ///< those with values first
+};
+
+/// In bytes: the largest variable of version 2 of the format, in which lengths have 32 bits and
+/// which more programs read than version 5.
+inline constexpr std::size_t largest_of_version_2 = 0xFFFF'FFFB;
+
+/// What such a file begins with, and where the values of each variable are. They follow one another
+/// in the order of the description.
+struct NetcdfLayout {
+  std::string head;  ///< the header, zeros up to the first value, and the values that are known
+  std::size_t header_bytes;
+  std::vector<std::pair<std::string, std::size_t>> places;  ///< of the first values, by name
+  std::size_t end;                                          ///< of all values
+};
+/// The values begin at byte `begin` of the file, at the end of the header or later. A variable
+/// beyond `largest` makes it one of version 5. The format: Unidata, "NetCDF Classic Format
+/// Specification"; Northwestern University, "CDF-5 Format Specification".
+NetcdfLayout layout_of(const NetcdfDescription& description, std::size_t begin,
+                       std::size_t largest = largest_of_version_2);
+
+/// Every member throws OutputError, naming the file as `shown_name` and the system's reason, if the
+/// system reports an error. Nothing is buffered. The descriptor, open to read and write, is the
+/// caller's and outlives this object.
 class NetcdfFile {
  public:
-  /// Makes a new file, or opens an empty one, to be described and then filled.
-  static NetcdfFile create(const std::filesystem::path& path, std::string shown_name);
-  /// Reopens a file of create() to fill it further.
-  static NetcdfFile reopen(const std::filesystem::path& path, std::string shown_name);
-  NetcdfFile(NetcdfFile&&) = default;
+  /// Makes the file anew, with room on the disk for all values, which are 0.
+  static NetcdfFile create(int descriptor, std::string shown_name, NetcdfLayout layout);
+  /// Opens a file of the same layout. Throws OutputError also if its head or length is another.
+  static NetcdfFile reopen(int descriptor, std::string shown_name, NetcdfLayout layout);
+  /// Adds variables: `layout` begins with the places of the present one.
+  void extend(NetcdfLayout layout);
 
-  // The description comes before the first values or after resume_description().
-  NetcdfDimension add_dimension(const std::string& name, std::size_t length);
-  /// A variable of doubles; without dimensions a single number. Values are stored contiguously in
-  /// the order of the indices, so that the file does not depend on how the writing is divided.
-  NetcdfVariable add_numbers(const std::string& name,
-                             const std::vector<NetcdfDimension>& dimensions,
-                             const std::string& long_name, const std::string& units);
-  /// Declares NaN as the missing value of a variable of numbers. Coordinates need none: all are
-  /// known.
-  void declare_nan_missing(NetcdfVariable variable);
-  /// A variable of whole numbers from 0 on that stand for words (the CF conventions' "flags").
-  NetcdfVariable add_flags(const std::string& name, const std::vector<NetcdfDimension>& dimensions,
-                           const std::string& long_name, const std::vector<std::string>& meanings);
-  void set_attribute(NetcdfVariable variable, const std::string& name, const std::string& text);
-  void set_attribute_of_file(const std::string& name, const std::string& text);
-  /// Also reads back which attributes there are: the library leaves out those for which it has no
-  /// memory, and reports success.
-  void end_description();
-  void resume_description();
-
-  NetcdfVariable variable(const std::string& name) const;
-  /// Writes the values of a box, the last index fastest.
-  void write(NetcdfVariable variable, const NetcdfBox& box, std::span<const double> values);
-  void write(NetcdfVariable variable, const NetcdfBox& box, std::span<const signed char> flags);
-
-  // Reads values back.
-  void read(NetcdfVariable variable, const NetcdfBox& box, std::span<double> values) const;
-  void read(NetcdfVariable variable, const NetcdfBox& box, std::span<signed char> flags) const;
-  std::string attribute_of_file(const std::string& name) const;
-
-  /// Advises the system to begin writing to the disk, without waiting. This shortens a later
-  /// flush() or fsync.
-  void begin_flush() const;
-  /// Writes everything to the disk (fsync).
+  /// Writes values of a variable of numbers or flags, from value number `first` on.
+  void write(std::string_view variable, std::size_t first, std::span<const double> numbers);
+  void write(std::string_view variable, std::size_t first, std::span<const std::byte> flags);
+  void read(std::string_view variable, std::size_t first, std::span<double> numbers) const;
+  void read(std::string_view variable, std::size_t first, std::span<std::byte> flags) const;
+  /// Brings everything to the disk (fsync).
   void flush();
-  /// Writes everything to the file.
-  void close();
 
  private:
-  NetcdfFile(int id, std::filesystem::path path, std::string shown_name)
-      : id_(id), path_(std::move(path)), shown_name_(std::move(shown_name)) {}
+  NetcdfFile(int descriptor, std::string shown_name, NetcdfLayout layout)
+      : descriptor_(descriptor), shown_name_(std::move(shown_name)), layout_(std::move(layout)) {}
 
-  template <class Call>
-  static NetcdfFile opened(Call call, const std::filesystem::path& path, std::string shown_name,
-                           int mode);
+  void begin();
+  void put(std::span<const std::byte> bytes, std::size_t place);
+  void get(std::span<std::byte> bytes, std::size_t place) const;
+  std::size_t place_of(std::string_view variable) const;
+  [[noreturn]] void refuse(const char* action) const;
 
-  template <class Call, class... Arguments>
-  void require(Call call, Arguments... arguments) const;
-
-  NetcdfVariable define(const std::string& name, int type,
-                        const std::vector<NetcdfDimension>& dimensions);
-
-  struct Attribute {
-    NetcdfVariable variable;
-    std::string name;
-    std::size_t length;
-  };
-
-  int id_;  ///< the library's identifier
-  std::filesystem::path path_;
+  int descriptor_;
   std::string shown_name_;
-  std::vector<Attribute> attributes_{};  ///< set since the last end_description()
+  NetcdfLayout layout_;
 };
 
 }  // namespace gearlash

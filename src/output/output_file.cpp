@@ -15,7 +15,6 @@
 
 #include "input/units.hpp"
 #include "output/file_safety.hpp"
-#include "output/writing_process.hpp"
 
 namespace gearlash {
 namespace {
@@ -121,7 +120,6 @@ std::filesystem::path destination_of(const std::filesystem::path& path) {
 }
 
 void remove_unfinished_outputs() noexcept {
-  end_writing_processes();
   for (UnfinishedOutput& output : unfinished_outputs) {
     if (output.exists.exchange(false)) unlink(output.name.data());
   }
@@ -205,12 +203,12 @@ void OutputFile::flush() {
   buffer_.clear();
 }
 
-std::filesystem::path OutputFile::hidden_file() const {
+int OutputFile::descriptor_of_file() const {
   if (target_.empty()) {
     throw OutputError(shown_name_ +
                       ": must be a file: its format is not written from front to back");
   }
-  return output_in(slot_).name.data();
+  return descriptor_;
 }
 
 void OutputFile::commit() {

@@ -41,9 +41,9 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
 
   void write(std::string_view text);
-  /// The hidden file, for libraries that write a file by its name instead of with write(). Throws
-  /// OutputError if the output is written to directly, because there is no hidden file then.
-  std::filesystem::path hidden_file() const;
+  /// The hidden file, open to read and write, for a format that is not written from front to back
+  /// with write(). Throws OutputError if the output is written to directly: there is none then.
+  int descriptor_of_file() const;
   /// The file's name in messages.
   const std::string& shown_name() const { return shown_name_; }
   void commit();

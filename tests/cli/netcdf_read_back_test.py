@@ -1,5 +1,9 @@
-"""What gearlash writes in NetCDF opens in xarray and in ncdump, and says what limit-cycle says."""
+"""What gearlash writes in NetCDF opens in xarray and in ncdump, and says what limit-cycle says.
 
+xarray reads it by NetCDF's own library and by SciPy.
+"""
+
+import csv
 import json
 import math
 import pathlib
@@ -50,8 +54,9 @@ class ReadBack(unittest.TestCase):
 
     def written(self, *arguments):
         run(TOOL, *arguments, "--output", self.path("out.nc"))
-        data = xarray.open_dataset(self.path("out.nc")).load()
-        data.close()
+        data, by_scipy = (xarray.load_dataset(self.path("out.nc"), engine=engine)
+                          for engine in ("netcdf4", "scipy"))
+        xarray.testing.assert_identical(data, by_scipy)
         return data
 
     def swept(self):
@@ -133,6 +138,25 @@ class ReadBack(unittest.TestCase):
         self.assertTrue((met == (data["growth_at_rest"].values <= 1.0)).all())
         self.assertTrue(met.any() and not met.all())
 
+    def test_its_values_are_those_of_the_table(self):
+        arguments = ["map", "--x", "inertia-ratio=0.1:10:9:log", "--y", "damping=0.05:1:7",
+                     "--friction-ratio", "0.3", "--target", "no-hunting"]
+        data = self.written(*arguments).drop_dims("hunting_boundary_point")
+        run(TOOL, *arguments, "--output", self.path("out.csv"))
+        table = data.to_dataframe().reset_index()
+        with open(self.path("out.csv"), encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), len(table))
+        for name in rows[0]:
+            words = data[name].attrs.get("flag_meanings", "").split()
+            for row, value in zip(rows, table[name]):
+                if words:
+                    self.assertEqual(row[name].replace(" ", "_"), words[int(value)], name)
+                elif row[name]:
+                    self.assertEqual(float(row[name]), value, name)
+                else:
+                    self.assertTrue(math.isnan(value), name)
+
     def test_a_map_without_a_boundary(self):
         data = self.written("map", "--x", "inertia-ratio=1:2:3", "--y", "damping=0.1:0.2:3",
                             "--friction-ratio", "0.1")
@@ -163,6 +187,7 @@ class ReadBack(unittest.TestCase):
 
     def test_ncdump_reads_it(self):
         self.swept()
+        self.assertEqual(run("ncdump", "-k", self.path("out.nc")), "64-bit offset\n")
         header = run("ncdump", "-h", self.path("out.nc"))
         self.assertIn("\tinertia_ratio = 11 ;", header)
         self.assertIn("\tdouble amplitude(friction_ratio, damping, inertia_ratio) ;", header)

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -195,8 +196,10 @@ TEST(SweepCommand, AFlippedBitIsSeen) {
   const double growth = std::strtod(dump.out.c_str(), nullptr);
   std::string bytes(sizeof(growth), '\0');
   std::memcpy(bytes.data(), &growth, sizeof(growth));
-  const std::size_t place = data.find(bytes);
-  ASSERT_NE(place, std::string::npos);
+  std::reverse(bytes.begin(), bytes.end());  // the most significant byte is the first in the file
+  const std::size_t first = data.find(bytes);
+  ASSERT_NE(first, std::string::npos);
+  const std::size_t place = first + sizeof(growth) - 1;
   data[place] = static_cast<char>(data[place] ^ 1);
   write(scratch / "a.nc.part", data);
   const Outcome run = sweep_in(scratch, "--resume");

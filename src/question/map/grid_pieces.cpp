@@ -48,15 +48,11 @@ struct WorkedOut {
 
 }  // namespace
 
-std::size_t box_length(const Grid& grid, std::size_t first, std::size_t most) {
-  std::size_t whole = 1;  // points of the axes that the box contains entirely
-  for (auto axis = grid.axes.rbegin(); axis != grid.axes.rend(); ++axis) {
-    const std::size_t values = axis->values.size();
-    const std::size_t left = values - first / whole % values;
-    if (left < values || whole * values > most) return std::min(left, most / whole) * whole;
-    whole *= values;
-  }
-  return whole;
+std::size_t piece_length(const Grid& grid, std::size_t first, std::size_t most) {
+  const std::size_t line = grid.axes.back().values.size();
+  const std::size_t left = line - first % line;
+  const std::size_t points = std::min(most, grid.size() - first);
+  return points < left ? points : points - (points - left) % line;
 }
 
 RowCount evaluate_in_pieces(const Grid& grid, std::span<const Quantity> quantities,
@@ -78,7 +74,7 @@ RowCount evaluate_in_pieces(const Grid& grid, std::span<const Quantity> quantiti
   const auto now = [&] { return seconds ? seconds() : 0.0; };
   // Computes a piece into a table with one row per point.
   const auto work_out = [&](std::size_t begin, Table& table) {
-    const std::size_t count = box_length(grid, begin, length.points());
+    const std::size_t count = piece_length(grid, begin, length.points());
     if (table.rows() != count) table = Table(count, quantities);
     // Without a free thread the piece is computed when it is needed.
     return std::async(std::launch::async | std::launch::deferred, [&, begin, count] {

@@ -8,8 +8,7 @@
 
 namespace gearlash {
 
-/// A computed piece: as many points from `first` on as the table has rows. They form a box of the
-/// grid (see box_length()).
+/// A computed piece: as many points from `first` on as the table has rows.
 struct GridPiece {
   std::size_t first;
   const Table& table;
@@ -29,15 +28,15 @@ using Stopwatch = std::function<double()>;
 /// each core. Two pieces are held in memory. `progress` receives the share of the whole grid,
 /// before the work and now and then. It can stop the work after a piece or within one, which is
 /// then lost; the count reports the stop. Precondition: as in evaluate(), longest > 0, `first` is 0
-/// or the end of a box. Searched drives have the same answers in pieces as at once if `longest` is
-/// a multiple of longest_run.
+/// or the end of a piece. Searched drives have the same answers in pieces as at once if `longest`
+/// is a multiple of longest_run.
 RowCount evaluate_in_pieces(const Grid& grid, std::span<const Quantity> quantities,
                             std::size_t first, std::size_t longest, const GridSink& take,
                             Progress& progress = no_progress(), const Stopwatch& seconds = {});
 
-/// The number of points from `first` on, `most` at most, that form a box of the grid: some values
-/// of one axis with all values of the axes after it. Precondition: `first` is 0 or the end of such
-/// a box; most > 0.
-std::size_t box_length(const Grid& grid, std::size_t first, std::size_t most);
+/// The number of points of a piece from `first` on, `most` at most: it ends at the end of a line
+/// along the last axis, or in the line in which it begins. Precondition: first < grid.size(), most
+/// > 0.
+std::size_t piece_length(const Grid& grid, std::size_t first, std::size_t most);
 
 }  // namespace gearlash

@@ -2,14 +2,11 @@
 // standard input: call `number` of a kind fails, once. Each run is a fork at the first call of
 // main(), because starting the tool and its libraries takes longer than most runs. Its status goes
 // to descriptor 3. The file of CALL_COUNTS has the calls of each kind, in the order of Kind.
-//   open write fsync rename close   of an output file: no space is left on the device
-//   fork                            no process can be started
-//   allocate                        new, and malloc of the tool itself, from main() on
-//   library                         all other allocations in a child that writes a file
+//   open claim write fsync rename close   of an output file: no space is left on the device
+//   allocate                              new, and malloc of the tool itself, from main() on
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <link.h>
-#include <pthread.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -25,23 +22,18 @@
 #include <cstring>
 #include <new>
 
-extern "C" {                                               // glibc's names
-void* __libc_malloc(std::size_t size);                     // NOLINT
-void* __libc_calloc(std::size_t count, std::size_t size);  // NOLINT
-void* __libc_realloc(void* memory, std::size_t size);      // NOLINT
-}
+extern "C" void* __libc_malloc(std::size_t size);  // NOLINT: glibc's name
 
 namespace {
 
 enum Kind : std::size_t {
   opening,
+  claiming,
   writing,
   syncing,
   renaming,
   closing,
-  forking,
   allocating,
-  of_library,
   kind_count
 };
 
@@ -57,7 +49,6 @@ struct Request {
 };
 Request failing;
 std::atomic<bool> in_main = false;
-std::atomic<bool> in_child = false;
 std::uintptr_t program_begin = 0;
 std::uintptr_t program_end = 0;
 
@@ -75,7 +66,6 @@ int note_program(dl_phdr_info* object, std::size_t, void*) {
 
 [[gnu::constructor]] void begin() {
   dl_iterate_phdr(note_program, nullptr);
-  pthread_atfork(nullptr, nullptr, [] { in_child = true; });
   if (const char* file = std::getenv("CALL_COUNTS")) {
     const int descriptor = open(file, O_RDWR | O_CLOEXEC);
     void* shared = mmap(nullptr, sizeof(Counts), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
@@ -127,17 +117,14 @@ void begin_run(const Request& asked) {
   dup2(open("/dev/null", O_RDONLY | O_CLOEXEC), STDIN_FILENO);
   for (auto& count : *counts) count = 0;
   failing = asked;
-  in_child = false;
   in_main = true;
 }
 
 /// Returns in each fork; the first process ends here.
 void serve_requests() {
-  if (const char* library = std::getenv("CALL_LIBRARY")) dlopen(library, RTLD_NOW | RTLD_LOCAL);
-  auto* const real_fork = next<pid_t()>("fork");
   Request asked;
   while (read(STDIN_FILENO, &asked, sizeof asked) == sizeof asked) {
-    const pid_t run = real_fork();
+    const pid_t run = fork();
     if (run == 0) return begin_run(asked);
     int status = -1;
     waitpid(run, &status, 0);
@@ -201,6 +188,23 @@ ssize_t pwrite(int descriptor, const void* bytes, size_t size, off_t offset) {
   return pwrite64(descriptor, bytes, size, offset);
 }
 
+int fallocate64(int descriptor, int mode, off64_t offset, off64_t size) {
+  static auto* const real = next<int(int, int, off64_t, off64_t)>("fallocate64");
+  const bool is_lost_now = is_output(descriptor) && fails(claiming);
+  return is_lost_now ? no_space() : real(descriptor, mode, offset, size);
+}
+
+int fallocate(int descriptor, int mode, off_t offset, off_t size) {
+  return fallocate64(descriptor, mode, offset, size);
+}
+
+int ftruncate64(int descriptor, off64_t size) noexcept {
+  static auto* const real = next<int(int, off64_t)>("ftruncate64");
+  return is_output(descriptor) && fails(claiming) ? no_space() : real(descriptor, size);
+}
+
+int ftruncate(int descriptor, off_t size) noexcept { return ftruncate64(descriptor, size); }
+
 /// Nobody waits for the disk.
 int fsync(int descriptor) { return is_output(descriptor) && fails(syncing) ? no_space() : 0; }
 
@@ -217,25 +221,9 @@ int close(int descriptor) {
   return is_lost_now ? no_space() : result;
 }
 
-pid_t fork() {
-  static auto* const real = next<pid_t()>("fork");
-  if (!is_lost(forking)) return real();
-  errno = EAGAIN;
-  return -1;
-}
-
 void* malloc(size_t size) {
   const bool is_own_call = is_own(__builtin_return_address(0));
-  if (is_own_call && is_lost(allocating)) return no_memory();
-  return !is_own_call && in_child && fails(of_library) ? no_memory() : __libc_malloc(size);
-}
-
-void* calloc(size_t count, size_t size) {
-  return in_child && fails(of_library) ? no_memory() : __libc_calloc(count, size);
-}
-
-void* realloc(void* memory, size_t size) {
-  return in_child && fails(of_library) ? no_memory() : __libc_realloc(memory, size);
+  return is_own_call && is_lost(allocating) ? no_memory() : __libc_malloc(size);
 }
 
 }  // extern "C"

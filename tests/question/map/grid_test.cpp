@@ -92,28 +92,27 @@ TEST(EdgeAxis, EachFaultIsOneLine) {
   EXPECT_EQ(fault(0.1, infinity, 5, Spacing::linear), "--x = 0.1 to inf: must be finite");
 }
 
-TEST(Grid, FallsIntoBoxes) {
+TEST(Grid, FallsIntoPiecesOfWholeLines) {
   const Grid grid = grid_of_three();  // 13 × 25 × 41
+  constexpr std::size_t line = 41;
   for (const std::size_t most :
        std::vector<std::size_t>{1, 2, 40, 41, 42, 500, 1025, 3000, 13324, 13325, 100000}) {
     std::size_t first = 0;
     while (first < grid.size()) {
-      const std::size_t count = box_length(grid, first, most);
+      const std::size_t count = piece_length(grid, first, most);
       ASSERT_GE(count, 1U);
       ASSERT_LE(count, most);
       ASSERT_LE(first + count, grid.size());
-      // Whole rows of the last axis or part of one; whole planes or part of one.
-      for (const std::size_t whole : {std::size_t{41}, std::size_t{25 * 41}}) {
-        const bool within_one = first / whole == (first + count - 1) / whole;
-        ASSERT_TRUE(within_one || (first % whole == 0 && count % whole == 0))
-            << most << ": " << count << " from " << first;
-      }
+      const bool within_one = first / line == (first + count - 1) / line;
+      ASSERT_TRUE(within_one || (first + count) % line == 0)
+          << most << ": " << count << " from " << first;
       first += count;
     }
     EXPECT_EQ(first, grid.size());
   }
-  EXPECT_EQ(box_length(grid, 0, 13'325), 13'325U);
-  EXPECT_EQ(box_length(grid, 0, 3000), 2U * 25U * 41U);
+  EXPECT_EQ(piece_length(grid, 0, 13'325), 13'325U);
+  EXPECT_EQ(piece_length(grid, 0, 3000), 73U * line);
+  EXPECT_EQ(piece_length(grid, 32, 3000), 9U + 72U * line);
 }
 
 TEST(EdgeGrid, FaultsOfAllAxesAreToldAtOnce) {
