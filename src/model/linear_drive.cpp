@@ -212,22 +212,6 @@ std::vector<Number> LinearSystem<Number>::column(LinearInput input) const {
   return column;
 }
 
-IntervalMatrix flow_of(const LinearSystem<Interval>& system) {
-  IntervalMatrix flow(system.size());
-  for (std::size_t i = 0; i < system.size(); ++i) flow.rows[i] = system.slopes[i].of_state;
-  return flow;
-}
-
-Eigen::MatrixXd flow_of(const LinearSystem<double>& system) {
-  const auto size = static_cast<Eigen::Index>(system.size());
-  Eigen::MatrixXd flow(size, size);
-  for (Eigen::Index i = 0; i < size; ++i) {
-    const std::vector<double>& row = system.slopes[static_cast<std::size_t>(i)].of_state;
-    flow.row(i) = Eigen::Map<const Eigen::RowVectorXd>(row.data(), size);
-  }
-  return flow;
-}
-
 template <class Number>
 bool LinearDrive<Number>::uses_speed() const {
   const auto uses = [](const std::vector<Number>& row) { return !is_exactly(row[2], 0.0); };

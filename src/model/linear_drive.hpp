@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "base/interval.hpp"
+#include "base/lists.hpp"
 #include "model/drive.hpp"
 #include "model/enclosed_drive.hpp"
 #include "model/held_torques.hpp"
-#include "numeric/interval_algebra.hpp"
-#include "numeric/linear_algebra.hpp"
+#include "numeric/elimination.hpp"
 #include "numeric/vector_algebra.hpp"
 
 namespace gearlash {
@@ -96,8 +96,11 @@ struct LinearSystem {
 };
 
 /// The slopes by the states.
-IntervalMatrix flow_of(const LinearSystem<Interval>& system);
-Eigen::MatrixXd flow_of(const LinearSystem<double>& system);
+template <class Number>
+MatrixOf<Number> flow_of(const LinearSystem<Number>& system) {
+  const auto of_state = [](const LinearForm<Number>& slope) { return slope.of_state; };
+  return matrix_of(of_each(system.slopes, of_state), system.size());
+}
 
 /// The numbers of shafts, winding, faces, sensors and controller, at the load's shaft.
 template <class Number>

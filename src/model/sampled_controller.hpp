@@ -11,20 +11,6 @@
 namespace gearlash::drive::forms {
 
 template <class Number>
-std::vector<Number> numbers_of(const VectorOf<Number>& vector) {
-  return {vector.data(), vector.data() + vector.size()};
-}
-
-template <class Number>
-std::vector<std::vector<Number>> rows_of(const MatrixOf<Number>& matrix) {
-  std::vector<std::vector<Number>> rows;
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    rows.push_back(numbers_of<Number>(matrix.row(i).transpose()));
-  }
-  return rows;
-}
-
-template <class Number>
 MatrixOf<Number> inverse_of(const MatrixOf<Number>& matrix) {
   if constexpr (std::is_same_v<Number, double>) {
     return inverse(matrix);
@@ -54,17 +40,16 @@ LinearControllerOf<Number> sampled(const LinearControllerOf<Number>& given, cons
   const Number at_end = share * period;
   const Number at_start = (1.0 - share) * period;
   const MatrixOf<Number> solved = inverse_of<Number>(identity - at_end * dynamics);
-  const Number one = 1.0;
-  const VectorOf<Number> output = product(one, solved.transpose(), vector_of(given.output));
+  const VectorOf<Number> output = product(solved.transpose(), vector_of(given.output));
   LinearControllerOf<Number> result{.is_of_samples = true};
   const MatrixOf<Number> start = identity + at_start * dynamics;
-  result.state_matrix = rows_of<Number>(product(one, solved, start));
-  result.input_matrix = rows_of<Number>(product(period, solved, input));
-  result.output = numbers_of<Number>(output);
+  result.state_matrix = rows_of<Number>(product(solved, start));
+  result.input_matrix = rows_of<Number>(product(period * solved, input));
+  result.output = entries_of<Number>(output);
   result.direct =
-      numbers_of<Number>(vector_of(given.direct) + product(at_end, input.transpose(), output));
+      entries_of<Number>(vector_of(given.direct) + product(at_end * input.transpose(), output));
   if (!given.anti_windup.empty()) {
-    result.anti_windup = numbers_of<Number>(product(period, solved, vector_of(given.anti_windup)));
+    result.anti_windup = entries_of<Number>(product(period * solved, vector_of(given.anti_windup)));
   }
   if (knows_error_alone(given)) {
     make_difference(result.direct);

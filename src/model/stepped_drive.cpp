@@ -1,36 +1,27 @@
 #include "model/stepped_drive.hpp"
 
+#include <type_traits>
 #include <utility>
 
 #include "base/number.hpp"
+#include "numeric/interval_matrix.hpp"
 #include "numeric/linear_algebra.hpp"
 
 namespace gearlash {
 namespace {
 
 /// The plant after a time under one torque: rows for the states before, and the torque.
-std::vector<std::vector<Interval>> passed(const LinearSystem<Interval>& plant,
-                                          const Interval& time) {
-  LinearPassage over = passage(flow_of(plant), {plant.column(LinearInput::torque)}, time);
-  for (std::size_t i = 0; i < plant.size(); ++i) {
-    over.flow.rows[i].push_back(over.of_inputs[0][i]);
-  }
-  return std::move(over.flow.rows);
-}
-std::vector<std::vector<double>> passed(const LinearSystem<double>& plant, double time) {
+template <class Number>
+std::vector<std::vector<Number>> passed(const LinearSystem<Number>& plant, const Number& time) {
   const auto size = static_cast<Eigen::Index>(plant.size());
-  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(size + 1, size + 1);
+  MatrixOf<Number> whole = MatrixOf<Number>::Constant(size + 1, size + 1, Number(0.0));
   whole.topLeftCorner(size, size) = time * flow_of(plant);
-  for (Eigen::Index i = 0; i < size; ++i) {
-    whole(i, size) = time * plant.slopes[static_cast<std::size_t>(i)][LinearInput::torque];
+  whole.col(size).head(size) = time * vector_of(plant.column(LinearInput::torque));
+  if constexpr (std::is_same_v<Number, double>) {
+    return rows_of<Number>(exponential(whole).topRows(size));
+  } else {
+    return rows_of<Number>(enclosed_exponential(whole).topRows(size));
   }
-  const Eigen::MatrixXd over = exponential(whole);
-  std::vector<std::vector<double>> rows;
-  for (Eigen::Index i = 0; i < size; ++i) {
-    const Eigen::RowVectorXd row = over.row(i);
-    rows.emplace_back(row.begin(), row.end());
-  }
-  return rows;
 }
 
 template <class Number>

@@ -15,38 +15,6 @@ using Vector = Eigen::VectorXd;
 
 std::size_t at(Index index) { return static_cast<std::size_t>(index); }
 
-Interval& entry(IntervalMatrix& matrix, Index row, Index column) {
-  return matrix.rows[at(row)][at(column)];
-}
-const Interval& entry(const IntervalMatrix& matrix, Index row, Index column) {
-  return matrix.rows[at(row)][at(column)];
-}
-
-IntervalMatrix product(const Matrix& left, const IntervalMatrix& right) {
-  IntervalMatrix result(right.size());
-  for (Index i = 0; i < left.rows(); ++i) {
-    for (Index k = 0; k < left.cols(); ++k) {
-      if (left(i, k) == 0.0) continue;
-      for (Index j = 0; j < left.cols(); ++j) {
-        Interval& sum = entry(result, i, j);
-        sum = sum + left(i, k) * entry(right, k, j);
-      }
-    }
-  }
-  return result;
-}
-
-Matrix middle(const IntervalMatrix& matrix) {
-  const auto size = static_cast<Index>(matrix.size());
-  Matrix result(size, size);
-  for (Index i = 0; i < size; ++i) {
-    for (Index j = 0; j < size; ++j) {
-      result(i, j) = middle(entry(matrix, i, j));
-    }
-  }
-  return result;
-}
-
 // ---- the change of coordinates: floating point, proved afterwards -------------------------------
 
 struct Subspaces {
@@ -184,69 +152,45 @@ bool decays(const Eigen::VectorXcd& values, TimeKind kind) {
 
 /// Whether a symmetric matrix is positive definite, by Cholesky's decomposition.
 bool is_positive_definite(IntervalMatrix matrix) {
-  const std::size_t size = matrix.size();
-  for (std::size_t k = 0; k < size; ++k) {
-    const Interval pivot = matrix.rows[k][k];
+  const Index size = matrix.rows();
+  for (Index k = 0; k < size; ++k) {
+    const Interval pivot = matrix(k, k);
     if (!(pivot.low > 0.0)) return false;
-    for (std::size_t i = k + 1; i < size; ++i) {
-      const Interval factor = matrix.rows[i][k] / pivot;
-      for (std::size_t j = k + 1; j < size; ++j) {
-        matrix.rows[i][j] = matrix.rows[i][j] - factor * matrix.rows[k][j];
-      }
+    for (Index i = k + 1; i < size; ++i) {
+      const Interval factor = matrix(i, k) / pivot;
+      for (Index j = k + 1; j < size; ++j) matrix(i, j) = matrix(i, j) - factor * matrix(k, j);
     }
   }
   return true;
 }
 
 /// −(A + Aᵀ)/2 of a flow; −(A + Aᵀ) − AᵀA = 1 − (1 + A)ᵀ(1 + A) of a step.
-IntervalMatrix contraction(const Matrix& flow, TimeKind kind) {
-  IntervalMatrix result(at(flow.rows()));
-  for (Index i = 0; i < flow.rows(); ++i) {
-    for (Index j = 0; j < flow.rows(); ++j) {
-      const Interval sum = Interval(flow(i, j)) + flow(j, i);
-      if (kind == TimeKind::continuous) {
-        entry(result, i, j) = -0.5 * sum;
-        continue;
-      }
-      Interval product = 0.0;
-      for (Index k = 0; k < flow.rows(); ++k) product = product + Interval(flow(k, i)) * flow(k, j);
-      entry(result, i, j) = -sum - product;
-    }
-  }
-  return result;
+IntervalMatrix contraction(const IntervalMatrix& flow, TimeKind kind) {
+  const IntervalMatrix sum = flow + flow.transpose();
+  if (kind == TimeKind::continuous) return Interval(-0.5) * sum;
+  return -sum - product(flow.transpose(), flow);
 }
 
 /// A rate with ‖e^{flow t}‖ ≤ e^{−rate t}, or ‖1 + flow‖ ≤ 1 − rate; 0 if none is proved.
 double contraction_rate(const Matrix& flow, TimeKind kind) {
-  const IntervalMatrix exact = contraction(flow, kind);
+  const IntervalMatrix exact = contraction(flow.cast<Interval>(), kind);
   const double least = eigenvalues(middle(exact)).real().minCoeff();
   for (const double share : {1.0 - 1e-9, 0.999, 0.5}) {
     const double proved = share * least;
     if (!(proved > 0.0)) return 0.0;
-    IntervalMatrix surplus = exact;
-    for (std::size_t i = 0; i < surplus.size(); ++i) {
-      surplus.rows[i][i] = surplus.rows[i][i] - proved;
-    }
-    if (!is_positive_definite(std::move(surplus))) continue;
+    const IntervalMatrix one = IntervalMatrix::Identity(flow.rows(), flow.cols());
+    if (!is_positive_definite(exact - Interval(proved) * one)) continue;
     // (1 − rate)² ≥ 1 − proved
     return kind == TimeKind::continuous ? proved : (0.5 * Interval(proved)).low;
   }
   return 0.0;
 }
 
-double norm(const Matrix& matrix) {
+template <class Entries>
+double norm(const Entries& entries) {
   Interval sum = 0.0;
-  for (Index i = 0; i < matrix.size(); ++i) sum = sum + square(Interval(matrix.data()[i]));
-  return sqrt(sum).high;
-}
-
-double norm(const IntervalMatrix& matrix, Index first_row, Index rows, Index first_column,
-            Index columns) {
-  Interval sum = 0.0;
-  for (Index i = first_row; i < first_row + rows; ++i) {
-    for (Index j = first_column; j < first_column + columns; ++j) {
-      sum = sum + square(entry(matrix, i, j));
-    }
+  for (Index i = 0; i < entries.rows(); ++i) {
+    for (Index j = 0; j < entries.cols(); ++j) sum = sum + square(Interval(entries(i, j)));
   }
   return sqrt(sum).high;
 }
@@ -300,29 +244,21 @@ bool DecayingMotion::prove(const IntervalMatrix& flow) {
     block.rate = contraction_rate(block.flow, kind_);
     if (!(block.rate > 0.0)) return false;
   }
-  IntervalMatrix missing(at(size));   // G
-  IntervalMatrix residual(at(size));  // AS − SÂ
-  for (Index i = 0; i < size; ++i) {
-    for (Index j = 0; j < size; ++j) {
-      Interval whole = i == j ? 1.0 : 0.0;
-      Interval rest = 0.0;
-      for (Index k = 0; k < size; ++k) {
-        whole = whole - Interval(inverse_(i, k)) * basis_(k, j);
-        rest = rest + entry(flow, i, k) * basis_(k, j) - Interval(basis_(i, k)) * block_flow(k, j);
-      }
-      entry(missing, i, j) = whole;
-      entry(residual, i, j) = rest;
-    }
-  }
-  const Interval gap = norm(missing, 0, size, 0, size);
+  const IntervalMatrix basis = basis_.cast<Interval>();
+  const IntervalMatrix one = IntervalMatrix::Identity(size, size);
+  const IntervalMatrix missing = one - product(inverse_, basis);  // G
+  const IntervalMatrix residual =
+      product(flow, basis) - product(basis_, block_flow.cast<Interval>());  // AS − SÂ
+  const Interval gap = norm(missing);
   if (!(gap.high < 0.5)) return false;
   inverse_error_ = (gap / (1.0 - gap)).high;
   const IntervalMatrix seen = product(inverse_, residual);
-  const Interval spread = inverse_error_ * Interval(norm(seen, 0, size, 0, size));
+  const Interval spread = inverse_error_ * Interval(norm(seen));
   for (const Block& row : blocks_) {
     std::vector<double>& couplings = couplings_.emplace_back();
     for (const Block& column : blocks_) {
-      const double here = norm(seen, row.first, row.flow.rows(), column.first, column.flow.rows());
+      const double here =
+          norm(seen.block(row.first, column.first, row.flow.rows(), column.flow.rows()));
       couplings.push_back((here + spread).high);
     }
   }

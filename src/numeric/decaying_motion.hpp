@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "numeric/interval_algebra.hpp"
+#include "numeric/interval_matrix.hpp"
 
 namespace gearlash {
 

@@ -43,16 +43,30 @@ VectorOf<Number> vector_of(const std::vector<Number>& numbers) {
                                             static_cast<Eigen::Index>(numbers.size()));
 }
 
-/// factor · left · right. Products with an exact 0 are left out: sums with them would be widened.
-template <class Number, class Left, class Right>
-Eigen::Matrix<Number, Eigen::Dynamic, Right::ColsAtCompileTime> product(const Number& factor,
-                                                                        const Left& left,
-                                                                        const Right& right) {
+template <class Number>
+std::vector<Number> entries_of(const VectorOf<Number>& vector) {
+  return {vector.data(), vector.data() + vector.size()};
+}
+
+template <class Number>
+std::vector<std::vector<Number>> rows_of(const MatrixOf<Number>& matrix) {
+  std::vector<std::vector<Number>> rows;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    rows.push_back(entries_of<Number>(matrix.row(i).transpose()));
+  }
+  return rows;
+}
+
+/// left · right. Products of intervals with an exact 0 are left out: sums with them would be
+/// widened.
+template <class Left, class Right>
+auto product(const Eigen::MatrixBase<Left>& left, const Eigen::MatrixBase<Right>& right) {
+  using Number = decltype(typename Left::Scalar() * typename Right::Scalar());
+  using Product = Eigen::Matrix<Number, Eigen::Dynamic, Right::ColsAtCompileTime>;
   if constexpr (std::is_same_v<Number, double>) {
-    return factor * left * right;
+    return Product(left * right);
   } else {
-    Eigen::Matrix<Number, Eigen::Dynamic, Right::ColsAtCompileTime> result(left.rows(),
-                                                                           right.cols());
+    Product result(left.rows(), right.cols());
     for (Eigen::Index i = 0; i < left.rows(); ++i) {
       for (Eigen::Index j = 0; j < right.cols(); ++j) {
         Number sum = 0.0;
@@ -60,11 +74,20 @@ Eigen::Matrix<Number, Eigen::Dynamic, Right::ColsAtCompileTime> product(const Nu
           const Number term = left.coeff(i, k) * right.coeff(k, j);
           if (!is_exactly(term, 0.0)) sum = is_exactly(sum, 0.0) ? term : Number(sum + term);
         }
-        result(i, j) = is_exactly(factor, 1.0) ? sum : Number(factor * sum);
+        result(i, j) = sum;
       }
     }
     return result;
   }
+}
+
+template <class Number>
+std::vector<Number> times(const MatrixOf<Number>& matrix, const std::vector<Number>& column) {
+  return entries_of<Number>(product(matrix, vector_of(column)));
+}
+template <class Number>
+std::vector<Number> times(const std::vector<Number>& row, const MatrixOf<Number>& matrix) {
+  return entries_of<Number>(product(matrix.transpose(), vector_of(row)));
 }
 
 /// By Gauss and Jordan with partial pivoting. Of intervals it contains the inverse of every matrix

@@ -10,12 +10,14 @@
 
 #include "base/number.hpp"
 #include "numeric/decaying_motion.hpp"
+#include "numeric/vector_algebra.hpp"
 
 namespace gearlash {
 namespace {
 
 using Eigen::Index;
 using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
 
 constexpr std::size_t order = 24;  ///< of the series
 constexpr double stretch = 3.0;  ///< length of a piece, in 1/‖flow‖: the rest is 3²⁴/24! = 5e-13
@@ -29,8 +31,6 @@ constexpr double unit = 0x1p-53;  ///< u: a result is off by at most this share 
 /// Bounds of errors are themselves sums and products of at most some hundred numbers that are not
 /// negative: rounding changes them by far less than this.
 constexpr double rounded_up = 1.0 + 1e-9;
-
-std::size_t whole(Index index) { return static_cast<std::size_t>(index); }
 
 /// Σ coefficientsₖ Π (s − i step)/span, i < k: a function of s from 0 to span. Continuous: step 0,
 /// span 1. Stepwise: step 1, and s counts the steps; no more terms than these.
@@ -262,40 +262,18 @@ struct Transformed {
 
 Transformed transformed_input(const Matrix& basis, const Matrix& inverse,
                               const IntervalVector& input) {
-  const Index size = basis.rows();
-  Transformed result{std::vector<double>(whole(size), 0.0),
-                     IntervalVector(whole(size), Interval(0.0))};
-  for (Index i = 0; i < size; ++i) {
-    for (Index k = 0; k < size; ++k) {
-      result.numbers[whole(i)] += inverse(i, k) * middle(input[whole(k)]);
-    }
-  }
-  IntervalVector rest = input;  // b − S numbers
-  for (Index i = 0; i < size; ++i) {
-    for (Index k = 0; k < size; ++k) {
-      rest[whole(i)] = rest[whole(i)] - Interval(basis(i, k)) * result.numbers[whole(k)];
-    }
-  }
-  for (Index i = 0; i < size; ++i) {
-    for (Index k = 0; k < size; ++k) {
-      result.error[whole(i)] = result.error[whole(i)] + inverse(i, k) * rest[whole(k)];
-    }
-  }
-  return result;
+  const VectorOf<Interval> given = vector_of(input);
+  const Vector numbers = inverse * middle(given);
+  const VectorOf<Interval> rest = given - product(basis, numbers.cast<Interval>());
+  return {entries_of<double>(numbers), entries_of<Interval>(product(inverse, rest))};
 }
 
 /// cS = numbers + error.
 Transformed transformed_output(const Matrix& basis, const IntervalVector& output) {
-  const Index size = basis.rows();
-  Transformed result{std::vector<double>(whole(size), 0.0), IntervalVector(whole(size))};
-  for (Index i = 0; i < size; ++i) {
-    double& number = result.numbers[whole(i)];
-    for (Index k = 0; k < size; ++k) number += middle(output[whole(k)]) * basis(k, i);
-    Interval& error = result.error[whole(i)];
-    error = -Interval(number);
-    for (Index k = 0; k < size; ++k) error = error + output[whole(k)] * basis(k, i);
-  }
-  return result;
+  const VectorOf<Interval> given = vector_of(output);
+  const Vector numbers = basis.transpose() * middle(given);
+  const VectorOf<Interval> whole = product(basis.transpose(), given);
+  return {entries_of<double>(numbers), entries_of<Interval>(whole - numbers.cast<Interval>())};
 }
 
 /// Ends the views that hardly matter any more and gives the size of the fastest part that is left;

@@ -14,13 +14,7 @@ namespace {
 
 using Rows = std::vector<std::vector<double>>;
 
-IntervalMatrix matrix(const Rows& rows) {
-  IntervalMatrix result(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (std::size_t j = 0; j < rows.size(); ++j) result.rows[i][j] = rows[i][j];
-  }
-  return result;
-}
+IntervalMatrix matrix(const Rows& rows) { return matrix_of(rows, rows.size()).cast<Interval>(); }
 
 Interval norm(const Rows& flow, TimeKind kind, const std::vector<double>& input,
               const std::vector<double>& output) {
@@ -103,15 +97,15 @@ TEST(EdgeDecayingMotion, IsNotProvedWhereItDoesNotDecay) {
   for (const double ratio : {1.0, -1.0, 1.5, -3.0}) {
     EXPECT_FALSE(DecayingMotion::of(matrix({{ratio - 1.0}}), TimeKind::stepwise));
   }
-  IntervalMatrix wide(1);  // some of these grow
-  wide.rows[0][0] = Interval(-1.0, 1e-3);
+  IntervalMatrix wide(1, 1);  // some of these grow
+  wide(0, 0) = Interval(-1.0, 1e-3);
   EXPECT_FALSE(DecayingMotion::of(wide, TimeKind::continuous));
 }
 
 /// A wide matrix encloses the norms of all that it contains.
 TEST(PropertyDecayingMotion, HoldsForEveryMatrixWithin) {
-  IntervalMatrix wide(1);
-  wide.rows[0][0] = Interval(-1.1, -0.9);
+  IntervalMatrix wide(1, 1);
+  wide(0, 0) = Interval(-1.1, -0.9);
   const auto motion = DecayingMotion::of(wide, TimeKind::continuous);
   ASSERT_TRUE(motion);
   const Interval found = motion->impulse_norm({1.0}, {1.0});

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/linear_drive.hpp"
+#include "numeric/interval_matrix.hpp"
 
 namespace gearlash {
 

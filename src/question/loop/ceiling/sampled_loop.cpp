@@ -37,11 +37,8 @@ struct Entry {
 
 /// Φ − 1.
 IntervalMatrix changes_of(const LinearSystem<Interval>& step) {
-  IntervalMatrix changes = flow_of(step);
-  for (std::size_t i = 0; i < changes.size(); ++i) {
-    changes.rows[i][i] = changes.rows[i][i] - 1.0;
-  }
-  return changes;
+  const IntervalMatrix flow = flow_of(step);
+  return flow - IntervalMatrix::Identity(flow.rows(), flow.cols());
 }
 
 class SampledLoop : public DisturbedLoop {
@@ -126,8 +123,8 @@ Spread SampledLoop::spread(const IntervalVector& acting) const {
   Spread spread;
   const Interval length = drive_.period / Interval(static_cast<double>(spread_parts_));
   const Interval weight = square(length) / 8.0 * length;
-  const IntervalMatrix over = passage(flow_, {}, length).flow;
-  const IntervalMatrix within = passage(flow_, {}, Interval(0.0, length.high)).flow;
+  const IntervalMatrix over = enclosed_exponential(length * flow_);
+  const IntervalMatrix within = enclosed_exponential(Interval(0.0, length.high) * flow_);
   const auto add = [&](IntervalVector vector, const Interval& share) {
     vector.resize(size(), Interval(0.0));
     spread.vectors.push_back(std::move(vector));
@@ -193,12 +190,12 @@ SampledLoop::Track SampledLoop::track(const Form& output, const Entry& entry) co
     track.forms.push_back(combination(output.of_state, segment.states) +
                           of_torque * segment.torque);
     track.forms.push_back(
-        combination(times(second, passage(flow_, {}, within).flow), segment.slopes));
+        combination(times(second, enclosed_exponential(within * flow_)), segment.slopes));
     Interval slope = 0.0;
     Interval bend = 0.0;
     if (!entry.acting.empty()) {
       const IntervalVector acted =
-          times(passage(flow_, {}, segment.from + within).flow, entry.acting);
+          times(enclosed_exponential((segment.from + within) * flow_), entry.acting);
       slope = abs(dot(output.of_state, acted));
       bend = abs(dot(second, acted));
     }

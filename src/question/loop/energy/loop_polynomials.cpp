@@ -24,12 +24,12 @@ Polynomial conjugate(Polynomial polynomial) {
 
 /// By the companion matrix.
 bool is_stable(const Polynomial& polynomial) {
-  const std::size_t order = polynomial.size() - 1;
+  const auto order = static_cast<Eigen::Index>(polynomial.size()) - 1;
   if (order == 0) return true;
-  IntervalMatrix companion(order);
-  for (std::size_t i = 0; i + 1 < order; ++i) companion.rows[i][i + 1] = 1.0;
-  for (std::size_t i = 0; i < order; ++i) {
-    companion.rows[order - 1][i] = -(polynomial[i] / polynomial[order]);
+  IntervalMatrix companion = IntervalMatrix::Constant(order, order, 0.0);
+  companion.diagonal(1).setOnes();
+  for (Eigen::Index i = 0; i < order; ++i) {
+    companion(order - 1, i) = -(polynomial[static_cast<std::size_t>(i)] / polynomial.back());
   }
   return DecayingMotion::of(companion, TimeKind::continuous).has_value();
 }
