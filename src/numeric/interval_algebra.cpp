@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/lists.hpp"
+
 namespace gearlash {
 namespace {
 
@@ -51,9 +53,7 @@ IntervalMatrix exponential_series(const IntervalMatrix& matrix) {
 }  // namespace
 
 IntervalVector times(const IntervalMatrix& matrix, const IntervalVector& column) {
-  IntervalVector result;
-  for (const IntervalVector& row : matrix.rows) result.push_back(dot(row, column));
-  return result;
+  return of_each(matrix.rows, [&](const IntervalVector& row) { return dot(row, column); });
 }
 
 IntervalVector times(const IntervalVector& row, const IntervalMatrix& matrix) {
