@@ -21,11 +21,8 @@ std::string in_help_column(const std::string& help) {
 }
 
 std::vector<std::string> names_of_subcommands(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    names.push_back(command->get_name());
-  }
-  return names;
+  return of_each(app.get_subcommands([](const CLI::App*) { return true; }),
+                 [](const CLI::App* command) { return command->get_name(); });
 }
 
 /// Throws InvalidInput unless `words` begins with a subcommand of `app`. `typed`: the words before.
@@ -36,10 +33,9 @@ void require_known_subcommand(const CLI::App& app, const std::string& typed,
   const std::string first = words.empty() ? "" : words.front();
   if (first.starts_with("-")) return;  // an option, which CLI11 checks
   if (!contains(names, first)) {
-    throw InvalidInput(
-        {{"subcommand", first.empty() ? "" : shown(first),
-          "must be " + alternatives(names) + guess_of(names, first) + "; see " + typed + " --help",
-          ""}});
+    throw InvalidInput({{"subcommand", first.empty() ? "" : shown(first),
+                         "must be " + alternatives(names) + guess_of(names, first) + "; see " +
+                             typed + " --help"}});
   }
   require_known_subcommand(*app.get_subcommand(first), typed + " " + first,
                            {words.begin() + 1, words.end()});

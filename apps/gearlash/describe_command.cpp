@@ -44,8 +44,7 @@ void check_part(const DescribeOptions& options, Faults& faults) {
   faults.require_choice("--part", options.part,
                         of_each<std::string>(drawn_parts, &DrawnPart::word));
   if (options.plots.empty()) {
-    faults.add(
-        {"--part", shown(options.part), "must come with --plot: it chooses what to draw", ""});
+    faults.add({"--part", shown(options.part), "must come with --plot: it chooses what to draw"});
   }
 }
 

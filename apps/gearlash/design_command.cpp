@@ -111,9 +111,8 @@ void check_options(const DesignOptions& options, Faults& faults) {
   if (options.plots.empty() != options.vary.empty()) {
     faults.add(options.plots.empty()
                    ? Fault{"--plot", "",
-                           "must name the picture that --vary asks for, such as region=region.svg",
-                           ""}
-                   : Fault{"--vary", "", "must name the two parameters of the picture", ""});
+                           "must name the picture that --vary asks for, such as region=region.svg"}
+                   : Fault{"--vary", "", "must name the two parameters of the picture"});
   }
   if (!options.vary.empty() && !are_two(options.vary)) {
     faults.add("--vary", std::to_string(options.vary.size()) + " names",

@@ -273,7 +273,7 @@ RowCount write_netcdf(const GridTask& task, const Provenance& provenance, const 
         file.write(piece);
         if (!task.has_boundary) return;
         const std::span<const double> growth = piece.table[Quantity::growth_at_rest];
-        growth_at_rest.insert(growth_at_rest.end(), growth.begin(), growth.end());
+        add_all(growth_at_rest, growth);
       },
       progress, steady_seconds);
   if (task.has_boundary && !count.stopped) {

@@ -85,7 +85,7 @@ void add_margins(Result& result, const Drive& drive, const std::vector<Axis>& ax
                  LimitedWork& work) {
   if (!has_margins(result.analysis)) return;
   TerminalProgress progress(work, "Margins");
-  result.report.margin = axes.empty() ? margins(drive, progress) : margins(drive, axes, progress);
+  result.report.margin = margins(drive, axes, progress);
 }
 
 /// `specification`: rad, or 0.

@@ -59,7 +59,7 @@ class Faults {
   /// One fault of several drives is reported once.
   void add(Fault fault);
   void add(std::string_view field, std::string_view value, std::string_view permitted) {
-    add({std::string(field), std::string(value), std::string(permitted), ""});
+    add({std::string(field), std::string(value), std::string(permitted)});
   }
   void add(const std::vector<Fault>& faults) {
     for (const Fault& fault : faults) add(fault);

@@ -201,14 +201,8 @@ struct KnownHunting {
 KnownHunting hunting_of(const WrittenDrive& written, LimitedWork& work) {
   const Answer answer =
       analyse(written.drive, {.proofs = false}, TerminalProgress(work, "Searching").as_argument());
-  KnownHunting known;
-  known.headline = headline(report_of(written.drive, answer, written.angle, {}));
-  if (const Cycle* cycle = answer.largest_stable()) {
-    known.period = cycle->period;
-  } else if (!answer.irregular.empty()) {
-    known.period = answer.irregular.front().mean_period.value_or(0.0);
-  }
-  return known;
+  return {headline(report_of(written.drive, answer, written.angle, {})),
+          answer.value(Quantity::period).value_or(0.0)};
 }
 
 /// The motion until its hunting shows, unless --until was typed. Tables end earlier.

@@ -101,8 +101,7 @@ std::vector<PlotFile> read_plots(const std::vector<std::string>& typed,
     const std::size_t sign = text.find('=');
     const std::string kind = text.substr(0, sign);
     if (sign == std::string::npos || !contains(kinds, kind)) {
-      faults.add(
-          {"--plot", shown(text), "must be " + alternatives(forms) + guess_of(kinds, kind), ""});
+      faults.add({"--plot", shown(text), "must be " + alternatives(forms) + guess_of(kinds, kind)});
       continue;
     }
     plots.push_back(read_picture("--plot", text.substr(sign + 1), faults));

@@ -272,10 +272,9 @@ struct HuntingMargin {
 /// seconds to minutes, because each value tried needs its own search for cycles. Other drives are
 /// searched, with some 30 verdicts for each parameter, which takes seconds to minutes too. Not to
 /// hunt is to keep always_at_rest(). Throws InvalidInput for an unsound drive.
-[[nodiscard]] HuntingMargin margins(const Drive& drive, Progress& progress = no_progress());
-
-/// The same for the parameters of these axes alone, searched whatever the drive.
-[[nodiscard]] HuntingMargin margins(const Drive& drive, const std::vector<Axis>& axes,
+///
+/// Of the parameters of these axes alone, searched whatever the drive; no axes: the usual ones.
+[[nodiscard]] HuntingMargin margins(const Drive& drive, const std::vector<Axis>& axes = {},
                                     Progress& progress = no_progress());
 
 }  // namespace gearlash

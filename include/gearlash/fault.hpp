@@ -12,7 +12,7 @@ struct Fault {
   std::string path;       ///< dotted path as the author wrote it, for example "motor.inertia"
   std::string value;      ///< the value found, as written; empty if it is missing
   std::string permitted;  ///< what is permitted, with its unit
-  std::string where;      ///< "file:line:column" if the input came from a file, else empty
+  std::string where{};    ///< "file:line:column" if the input came from a file, else empty
 
   bool operator==(const Fault&) const = default;
 };

@@ -29,7 +29,7 @@ std::vector<FeasibleValues> designed(Progress& reports, const Drive& drive, cons
 }
 
 HuntingMargin margin_of(Progress& reports, const Drive& drive, const std::vector<Axis>& axes) {
-  return axes.empty() ? margins(drive, reports) : margins(drive, axes, reports);
+  return margins(drive, axes, reports);
 }
 
 ToleranceStudy studied(Progress& reports, const TolerancedDrive& series, const SamplePlan& sampling,

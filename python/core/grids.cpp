@@ -24,7 +24,7 @@ std::vector<Quantity> quantities_named(py::handle names) {
     const std::optional<Quantity> quantity = find_quantity(name);
     if (quantity) list.push_back(*quantity);
     if (!quantity)
-      unknown.push_back({"quantities", name, "must be names of gearlash.quantities()", ""});
+      unknown.push_back({"quantities", name, "must be names of gearlash.quantities()"});
   }
   if (!unknown.empty()) throw InvalidInput(unknown);
   return list;

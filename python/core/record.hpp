@@ -127,7 +127,7 @@ Enumeration word_from_python(py::handle object, const char* name) {
     if (own == text) return word.value;
     permitted += (permitted.empty() ? "" : ", ") + own;
   }
-  throw InvalidInput({{name, std::string(py::str(object)), "must be one of " + permitted, ""}});
+  throw InvalidInput({{name, std::string(py::str(object)), "must be one of " + permitted}});
 }
 
 template <class Variant, std::size_t index = 0>
@@ -174,7 +174,7 @@ Type from_python(py::handle object, const char* name) {
                                     std::to_string(std::numeric_limits<Type>::min()) + " to " +
                                     std::to_string(std::numeric_limits<Type>::max());
       if (PyLong_Check(object.ptr()) == 0) refuse_type(name, permitted, object);
-      throw InvalidInput({{name, std::string(py::str(object)), "must be " + permitted, ""}});
+      throw InvalidInput({{name, std::string(py::str(object)), "must be " + permitted}});
     }
   } else if constexpr (std::is_same_v<Type, std::string>) {
     if (!py::isinstance<py::str>(object)) refuse_type(name, "text", object);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <iterator>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -36,6 +37,27 @@ auto of_each(const List& list, const Make& make) {
   return all;
 }
 
+/// What `make` gives of each element and the next one.
+template <class List, class Make>
+auto of_neighbors(const List& list, const Make& make) {
+  std::vector<std::decay_t<decltype(make(list[0], list[0]))>> all;
+  for (std::size_t i = 0; i + 1 < list.size(); ++i) all.push_back(make(list[i], list[i + 1]));
+  return all;
+}
+
+/// Those of which it holds.
+template <class List, class Holds>
+auto those_of(const List& list, const Holds& holds) {
+  std::vector<std::decay_t<decltype(*std::begin(list))>> all;
+  std::copy_if(std::begin(list), std::end(list), std::back_inserter(all), holds);
+  return all;
+}
+
+template <class List, class Value>
+void add_all(std::vector<Value>& list, const List& more) {
+  list.insert(list.end(), std::begin(more), std::end(more));
+}
+
 template <class List, class Holds>
 std::size_t count_of(const List& list, const Holds& holds) {
   return static_cast<std::size_t>(std::count_if(std::begin(list), std::end(list), holds));
@@ -43,17 +65,30 @@ std::size_t count_of(const List& list, const Holds& holds) {
 
 /// The first of which it holds; nullptr if there is none.
 template <class List, class Holds>
-const auto* first_of(const List& list, const Holds& holds) {
+auto* first_of(List& list, const Holds& holds) {
   const auto found = std::find_if(std::begin(list), std::end(list), holds);
   return found == std::end(list) ? nullptr : &*found;
+}
+
+/// Compares by a member or a function of the elements.
+template <class Key>
+auto by(const Key& key) {
+  return [key](const auto& one, const auto& other) {
+    return std::invoke(key, one) < std::invoke(key, other);
+  };
 }
 
 /// Stable, the least first, by a member or a function of the elements.
 template <class List, class Key>
 void sort_by(List& list, const Key& key) {
-  std::stable_sort(std::begin(list), std::end(list), [&](const auto& one, const auto& other) {
-    return std::invoke(key, one) < std::invoke(key, other);
-  });
+  std::stable_sort(std::begin(list), std::end(list), by(key));
+}
+
+/// 0, 1, …, count − 1.
+inline std::vector<std::size_t> indices(std::size_t count) {
+  std::vector<std::size_t> all(count);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
 }
 
 /// "a, b, c": a text, or a member that is one, of each element. Elements of an empty text are left

@@ -23,7 +23,7 @@ std::string exact_text(double value) {
 
 RangeCheck& RangeCheck::refuse(std::string_view field, std::string_view value,
                                std::string_view permitted) {
-  faults_.push_back({prefix_ + std::string(field), std::string(value), std::string(permitted), ""});
+  faults_.push_back({prefix_ + std::string(field), std::string(value), std::string(permitted)});
   return *this;
 }
 

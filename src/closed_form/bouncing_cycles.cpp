@@ -6,6 +6,7 @@
 #include <functional>
 #include <numbers>
 
+#include "base/lists.hpp"
 #include "closed_form/cycle_of_orbit.hpp"
 #include "closed_form/extremes.hpp"
 #include "closed_form/growth_at_rest.hpp"
@@ -64,8 +65,7 @@ class Search {
     for (const KnownOrbit& known : known_.list()) {
       result_.cycles.push_back(cycle_of_orbit(servo_, dynamics_, known.orbit));
     }
-    std::sort(result_.cycles.begin(), result_.cycles.end(),
-              [](const LimitCycle& a, const LimitCycle& b) { return a.amplitude > b.amplitude; });
+    sort_by(result_.cycles, [](const LimitCycle& cycle) { return -cycle.amplitude; });
     result_.cut_short = budget_.cut_short || still_growing_;
     result_.any_neutral = known_.any_neutral();
     return result_;

@@ -27,7 +27,7 @@ Cycle cycle_of(const LimitCycle& found, Certainty certainty, double time_unit,
   cycle.events_per_period = found.impacts_per_period;
   cycle.settles = found.settles;
   if (stiffness) cycle.mesh_torque = found.mesh_torque * *stiffness;
-  if (stiffness && !std::isnan(found.energy.lost())) {
+  if (stiffness && !std::isnan(found.energy.total())) {
     const double unit = *stiffness;
     cycle.energy = EnergyLost{found.energy.motor_friction * unit, found.energy.load_friction * unit,
                               found.energy.impacts * unit};

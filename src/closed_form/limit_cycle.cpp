@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/lists.hpp"
 #include "closed_form/bouncing_cycles.hpp"
 #include "closed_form/cycle_of_orbit.hpp"
 #include "closed_form/energy_balance.hpp"
@@ -35,8 +36,8 @@ void analyse_plastic(const ServoDynamics& dynamics, LimitCycleAnalysis& analysis
 
 Verdict bouncing_verdict(double growth, const BouncingCycles& found) {
   if (std::isnan(growth)) return Verdict::undecided;
-  const bool any_stable = std::any_of(found.cycles.begin(), found.cycles.end(),
-                                      [](const LimitCycle& cycle) { return cycle.stable; });
+  const bool any_stable =
+      any_of(found.cycles, [](const LimitCycle& cycle) { return cycle.stable; });
   if ((found.cut_short || found.any_neutral) && !any_stable) return Verdict::undecided;
   const bool any_lasting = any_stable || !std::isnan(found.irregular_amplitude);
   if (growth > 1.0 && !any_lasting) return Verdict::undecided;
@@ -168,9 +169,7 @@ LimitCycleAnalysis analyse_beside(const NormalizedServo& servo, const LimitCycle
 }
 
 const LimitCycle* largest_stable(const LimitCycleAnalysis& analysis) {
-  const auto stable = std::find_if(analysis.cycles.begin(), analysis.cycles.end(),
-                                   [](const LimitCycle& cycle) { return cycle.stable; });
-  return stable == analysis.cycles.end() ? nullptr : &*stable;
+  return first_of(analysis.cycles, [](const LimitCycle& cycle) { return cycle.stable; });
 }
 
 }  // namespace gearlash

@@ -1,6 +1,5 @@
 #include "closed_form/phase.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/lists.hpp"
+#include "base/special_numbers.hpp"
 #include "closed_form/trajectory.hpp"
 #include "numeric/linear_algebra.hpp"
 
@@ -84,7 +86,7 @@ bool KnownOrbits::leads_to_known(const Arrival& from, const Arrival& step, int o
   constexpr double straight = 0.01;
   const Arrival to = from + step;
   const double limit = std::min(near, straight * step.norm() / to.norm());
-  return std::any_of(known_.begin(), known_.end(), [&](const KnownOrbit& known) {
+  return any_of(known_, [&](const KnownOrbit& known) {
     return order % known.orbit.order == 0 && known.orbit.distance_to(to) < limit;
   });
 }

@@ -5,6 +5,7 @@
 #include <complex>
 #include <functional>
 
+#include "base/lists.hpp"
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
 #include "hybrid/shooting.hpp"
@@ -373,9 +374,8 @@ class Continuation {
   }
 
   static std::size_t unstable_count(const PeriodicOrbit& orbit) {
-    return static_cast<std::size_t>(
-        std::count_if(orbit.multipliers.begin(), orbit.multipliers.end(),
-                      [](const std::complex<double>& one) { return std::abs(one) > 1.0; }));
+    return count_of(orbit.multipliers,
+                    [](const std::complex<double>& one) { return std::abs(one) > 1.0; });
   }
 
   static BifurcationKind kind_of(const std::complex<double>& passing) {

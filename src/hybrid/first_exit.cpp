@@ -9,6 +9,8 @@
 #include <limits>
 #include <vector>
 
+#include "base/lists.hpp"
+
 namespace gearlash::hybrid {
 namespace {
 
@@ -219,8 +221,7 @@ class Search {
   }
 
   bool never_negative(const Coefficients& coefficients) const {
-    return std::all_of(coefficients.begin(), coefficients.end(),
-                       [&](double c) { return c >= -uncertainty_; });
+    return all_of(coefficients, [&](double c) { return c >= -uncertainty_; });
   }
 
   /// Positive, then negative: one zero and no more.

@@ -34,7 +34,7 @@ class Inspection {
 
  private:
   void note(const std::string& field, const std::string& value, const std::string& permitted) {
-    faults_.push_back({field, value, permitted, ""});
+    faults_.push_back({field, value, permitted});
   }
 
   static std::string counted(std::size_t count, const char* what) {

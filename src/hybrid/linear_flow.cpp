@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/lists.hpp"
+
 namespace gearlash::hybrid {
 namespace {
 
@@ -135,13 +137,10 @@ void LinearFlow::weigh_within_loops(const std::vector<std::vector<bool>>& reache
 void LinearFlow::weigh_between_loops(const std::vector<std::vector<bool>>& reached,
                                      double fastest) {
   const std::size_t size = reached.size();
-  std::vector<std::size_t> order(size);
-  for (std::size_t i = 0; i < size; ++i) order[i] = i;
-  const auto reach = [&](std::size_t i) {  // of others
+  std::vector<std::size_t> order = indices(size);
+  sort_by(order, [&](std::size_t i) {  // by the reach of others
     return std::count(reached[i].begin(), reached[i].end(), true) - (reached[i][i] ? 1 : 0);
-  };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return reach(a) < reach(b); });
+  });
   std::vector<bool> done(size);
   for (const std::size_t first : order) {
     if (done[first]) continue;
@@ -294,9 +293,8 @@ void LinearFlow::add_sizes(const Velocity& velocity, double length, double* size
 }
 
 std::vector<std::size_t> LinearFlow::acting() const {
-  std::vector<std::size_t> all;
-  all.reserve(entries_.size());
-  for (const Entry& entry : entries_) all.push_back(at(entry.column));
+  std::vector<std::size_t> all =
+      of_each(entries_, [](const Entry& entry) { return at(entry.column); });
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;

@@ -1,6 +1,5 @@
 #include "hybrid/passage.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "hybrid/disturbances.hpp"

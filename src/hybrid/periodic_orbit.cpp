@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/lists.hpp"
 #include "hybrid/shooting.hpp"
 
 namespace gearlash::hybrid {
@@ -60,8 +61,7 @@ PeriodicOrbit once_around(const PreparedSystem& system, PeriodicOrbit orbit,
 }  // namespace
 
 bool PeriodicOrbit::is_stable() const {
-  return std::all_of(multipliers.begin(), multipliers.end(),
-                     [](const auto& multiplier) { return std::abs(multiplier) < 1.0; });
+  return all_of(multipliers, [](const auto& multiplier) { return std::abs(multiplier) < 1.0; });
 }
 
 std::optional<PeriodicOrbit> closing_orbit(const PreparedSystem& system, const Trajectory& motion,

@@ -1,16 +1,14 @@
 #include "hybrid/preparation.hpp"
 
-#include <algorithm>
 #include <cmath>
+
+#include "base/lists.hpp"
 
 namespace gearlash::hybrid {
 namespace {
 
 std::vector<SparseForm> guards_of(const AffineMode& mode) {
-  std::vector<SparseForm> guards;
-  guards.reserve(mode.transitions.size());
-  for (const Transition& transition : mode.transitions) guards.emplace_back(transition.guard);
-  return guards;
+  return of_each<SparseForm>(mode.transitions, &Transition::guard);
 }
 
 /// Whether events change a number not at all; or by constants, if it `may_step`.
@@ -20,8 +18,8 @@ bool is_left_alone(const AffineReset& reset, Eigen::Index number, Eigen::Index s
                          reset.matrix.row(number) != Vector::Unit(size, number).transpose();
   const bool by_offset = reset.offset.size() != 0 && reset.offset[number] != 0.0;
   return !by_matrix && (may_step || !by_offset) &&
-         std::all_of(reset.quantizers.begin(), reset.quantizers.end(),
-                     [&](const Quantizer& quantizer) { return quantizer.gain[number] == 0.0; });
+         all_of(reset.quantizers,
+                [&](const Quantizer& quantizer) { return quantizer.gain[number] == 0.0; });
 }
 
 bool is_left_alone(const AffineMode& mode, Eigen::Index number, Eigen::Index size, bool may_step) {
@@ -39,7 +37,7 @@ bool has_own_flow(const HybridSystem& system, Eigen::Index number, bool is_count
   if (is_count && !(first.matrix.row(number).isZero(0.0) && first.offset[number] == 0.0)) {
     return false;
   }
-  return std::all_of(system.modes.begin(), system.modes.end(), [&](const AffineMode& mode) {
+  return all_of(system.modes, [&](const AffineMode& mode) {
     return mode.flow.matrix.row(number) == first.matrix.row(number) &&
            mode.flow.offset[number] == first.offset[number] &&
            is_left_alone(mode, number, system.size(), is_count);

@@ -1,10 +1,10 @@
 // Where a simulated motion is.
 #pragma once
 
-#include <algorithm>
 #include <limits>
 #include <vector>
 
+#include "base/lists.hpp"
 #include "hybrid/hybrid_trajectory.hpp"
 #include "hybrid/preparation.hpp"
 
@@ -22,9 +22,9 @@ struct Present {
   std::size_t target_among(const std::vector<PreparedAlternative>& alternatives,
                            std::size_t otherwise) const {
     for (const PreparedAlternative& alternative : alternatives) {
-      const bool is_taken =
-          std::all_of(alternative.positive.begin(), alternative.positive.end(),
-                      [&](const SparseForm& form) { return form.at(state.numbers.data()) > 0.0; });
+      const bool is_taken = all_of(alternative.positive, [&](const SparseForm& form) {
+        return form.at(state.numbers.data()) > 0.0;
+      });
       if (is_taken) return alternative.target;
     }
     return otherwise;
@@ -32,8 +32,7 @@ struct Present {
 
   /// By the velocity.
   bool is_standing() const {
-    return std::all_of(velocity.values.begin(), velocity.values.end(),
-                       [](double value) { return value == 0.0; });
+    return all_of(velocity.values, [](double value) { return value == 0.0; });
   }
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/lists.hpp"
 #include "base/special_numbers.hpp"
 #include "numeric/linear_algebra.hpp"
 
@@ -40,8 +41,7 @@ double duration_of(const std::vector<Passage>& passages) {
 }  // namespace
 
 bool has_periodic_clocks(const HybridSystem& system) {
-  return std::any_of(system.clocks.begin(), system.clocks.end(),
-                     [](const Clock& clock) { return clock.period > 0.0; });
+  return any_of(system.clocks, [](const Clock& clock) { return clock.period > 0.0; });
 }
 
 Shooting::Shooting(const PreparedSystem& system, const State& start, double start_time,
@@ -123,11 +123,9 @@ std::optional<Shooting> Shooting::about(const PreparedSystem& system, const Stat
 void Shooting::divide(const Trajectory& motion, std::size_t phases) {
   const std::vector<Event>& events = motion.events();
   // Phases start midway in the longest intervals between events; `order` holds the events before.
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i + 1 < events.size(); ++i) order.push_back(i);
+  std::vector<std::size_t> order = indices(events.empty() ? 0 : events.size() - 1);
   const auto interval = [&](std::size_t i) { return events[i + 1].time - events[i].time; };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return interval(a) > interval(b); });
+  sort_by(order, [&](std::size_t i) { return -interval(i); });
   constexpr double least_share = 0.05;  // of the period
   while (!order.empty() &&
          (order.size() + 1 > phases || interval(order.back()) < least_share * period_)) {
@@ -269,8 +267,7 @@ PeriodicOrbit Shooting::orbit(const Equations& solved) const {
   const Matrix of_own = product(own, own);
   const Eigen::VectorXcd values = eigenvalues(of_own);
   orbit.multipliers.assign(values.begin(), values.end());
-  std::sort(orbit.multipliers.begin(), orbit.multipliers.end(),
-            [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
+  sort_by(orbit.multipliers, [](const auto& one) { return -std::abs(one); });
   // From plane to plane the multiplier of a shift in time is 0.
   if (!is_forced && !orbit.multipliers.empty()) orbit.multipliers.pop_back();
   return orbit;

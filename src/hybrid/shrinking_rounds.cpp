@@ -1,9 +1,9 @@
 #include "hybrid/shrinking_rounds.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "base/lists.hpp"
 #include "hybrid/linear_flow.hpp"
 
 namespace gearlash::hybrid {
@@ -106,8 +106,8 @@ Vector farthest_off(const Trajectory& motion, std::size_t event, const Vector& l
 /// A guard that fires is not clear, since the motion meets it: it is zero.
 bool is_homogeneous(const AffineMode& mode, const Nearness& near) {
   return mode.timed.empty() && near.is_zero(mode.flow.matrix, mode.flow.offset) &&
-         std::all_of(mode.transitions.begin(), mode.transitions.end(),
-                     [&](const Transition& one) { return near.is_zero_or_clear(one.guard); });
+         all_of(mode.transitions,
+                [&](const Transition& one) { return near.is_zero_or_clear(one.guard); });
 }
 
 bool is_homogeneous(const Transition& fired, const Nearness& near) {
@@ -116,10 +116,9 @@ bool is_homogeneous(const Transition& fired, const Nearness& near) {
   const Eigen::Index size = fired.guard.normal.size();
   const Matrix change = reset.slope(size) - Matrix::Identity(size, size);
   const Vector offset = reset.offset.size() > 0 ? reset.offset : Vector::Zero(size);
-  return near.is_zero(change, offset) &&
-         std::all_of(fired.alternatives.begin(), fired.alternatives.end(), [&](const auto& one) {
-           return std::all_of(one.positive.begin(), one.positive.end(),
-                              [&](const AffineForm& form) { return near.is_zero_or_clear(form); });
+  return near.is_zero(change, offset) && all_of(fired.alternatives, [&](const auto& one) {
+           return all_of(one.positive,
+                         [&](const AffineForm& form) { return near.is_zero_or_clear(form); });
          });
 }
 

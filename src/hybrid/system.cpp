@@ -1,10 +1,11 @@
-#include <algorithm>
 #include <cmath>
 
 #include "base/extent.hpp"
 #include "base/fault.hpp"
+#include "base/lists.hpp"
 #include "gearlash/hybrid.hpp"
 #include "hybrid/periodic_orbit.hpp"
+#include "hybrid/turns.hpp"
 #include "numeric/elimination.hpp"
 
 namespace gearlash::hybrid {
@@ -13,8 +14,7 @@ namespace {
 Row row_of(const Vector& vector) { return {vector.begin(), vector.end()}; }
 
 bool is_ragged(const std::vector<Row>& rows) {
-  return std::any_of(rows.begin(), rows.end(),
-                     [&](const Row& row) { return row.size() != rows.front().size(); });
+  return any_of(rows, [&](const Row& row) { return row.size() != rows.front().size(); });
 }
 
 AffineForm form_of(const Form& form) { return {vector_of(form.normal), form.offset}; }
@@ -29,13 +29,13 @@ struct System::Definition {
   AffineMode* known(const Mode& mode, const std::string& event) {
     if (mode.index < system.modes.size()) return &system.modes[mode.index];
     faults.push_back({"event \"" + event + "\".mode", std::to_string(mode.index),
-                      "must be a mode of this system", ""});
+                      "must be a mode of this system"});
     return nullptr;
   }
 
   Matrix matrix(const std::string& where, const std::vector<Row>& rows) {
     if (!is_ragged(rows)) return matrix_of(rows, rows.empty() ? 0 : rows.front().size());
-    faults.push_back({where + ".matrix", "", "must have rows of one length", ""});
+    faults.push_back({where + ".matrix", "", "must have rows of one length"});
     return Matrix::Identity(system.size(), system.size());
   }
 
@@ -97,7 +97,7 @@ System& System::settling(Mode to, const Reset& onto) {
     Transition& transition = definition.system.modes[*definition.last_event].transitions.back();
     transition.settling = {to.index, definition.reset(transition.name, onto), {}};
   } else {
-    definition.faults.push_back({"settling", "", "must follow an event with a guard", ""});
+    definition.faults.push_back({"settling", "", "must follow an event with a guard"});
   }
   return *this;
 }
@@ -110,17 +110,6 @@ const HybridSystem& assembled(const System& system) {
 namespace {
 
 State start_of(Mode mode, const Row& numbers) { return {mode.index, vector_of(numbers)}; }
-
-/// The flow of each mode alone, with events where a form's derivative vanishes.
-PreparedSystem with_turns(const HybridSystem& system, const AffineForm& form) {
-  HybridSystem turns{.state_names = system.state_names};
-  for (std::size_t i = 0; i < system.mode_count(); ++i) {
-    const AffineFlow& flow = system.mode(i).flow;
-    const AffineForm slope{flow.matrix.transpose() * form.normal, form.normal.dot(flow.offset)};
-    turns.modes.push_back({"alone", flow, {{"turn", slope, Direction::either, {}, i, {}, {}}}, {}});
-  }
-  return turns;
-}
 
 }  // namespace
 
@@ -180,19 +169,18 @@ Bounds extent(const System& system, const Orbit& orbit, const Form& form) {
   const AffineForm affine = form_of(form);
   if (affine.normal.size() != engine.size()) {
     throw InvalidInput({{"form.normal", std::to_string(form.normal.size()) + " numbers",
-                         "must be " + std::to_string(engine.size()) + " numbers", ""}});
+                         "must be " + std::to_string(engine.size()) + " numbers"}});
   }
-  const PreparedSystem turns = with_turns(engine, affine);
+  const PreparedSystem turns(with_turns(
+      engine, [affine](std::size_t, const AffineMode& mode) { return rate_of(affine, mode.flow); },
+      OtherEvents::left_out));
   const Trajectory turn =
       simulate(engine, start_of(orbit.mode, orbit.start),
                {.from = orbit.start_time, .until = orbit.start_time + orbit.period});
   Extent extent;
-  for_each_stretch(turn, [&](const State& start, double from, double to, const Vector& end) {
-    extent.include(affine.at(start.numbers));
-    const Trajectory stretch = simulate(turns, start, {.until = to - from});
-    for (const hybrid::Event& event : stretch.events()) extent.include(affine.at(event.before));
-    extent.include(affine.at(end));
-  });
+  for_each_turn(
+      turn, turns, [](std::size_t) { return true; },
+      [&](double, std::size_t, const Vector& numbers) { extent.include(affine.at(numbers)); });
   return extent;
 }
 

@@ -25,7 +25,7 @@ std::string known_text(const Drive& drive, std::string_view name) {
   std::vector<std::string> known;
   for (const ParameterInfo& parameter : parameters_of(drive)) {
     known.emplace_back(parameter.path);
-    known.insert(known.end(), parameter.aliases.begin(), parameter.aliases.end());
+    add_all(known, parameter.aliases);
   }
   for (const NormalFormNumber& number : normal_form_numbers) known.emplace_back(number.name);
   return "must be a number or a choice of this drive" + guess_of(known, name) +

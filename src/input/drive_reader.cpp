@@ -141,7 +141,7 @@ class DriveReader {
 
   void refuse_other_sections() {
     std::vector<std::string> names = of_each<std::string>(all_sections(), &Section::name);
-    for (const char* other : {loop, "joint", "actuator"}) names.emplace_back(other);
+    names.insert(names.end(), {loop, "joint", "actuator"});
     for (const auto& [key, value] : document_.root()) {
       const std::string name(key.str());
       if (name == variation_.section) continue;

@@ -1,5 +1,6 @@
 #include "input/parameter_text.hpp"
 
+#include "base/lists.hpp"
 #include "gearlash/parameter.hpp"
 #include "input/section_reader.hpp"
 #include "input/toml_document.hpp"
@@ -36,17 +37,15 @@ Rows rows_of(std::string_view path, const toml::array& array) {
 
 std::vector<std::string_view> paths_of(const Parameter& parameter) {
   std::vector<std::string_view> paths = {parameter.path};
-  for (const OtherForm& form : parameter.other_forms) paths.push_back(form.path);
+  add_all(paths, of_each(parameter.other_forms, &OtherForm::path));
   return paths;
 }
 
 std::string_view section_of(std::string_view path) { return path.substr(0, path.find('.')); }
 
 const OtherForm* inverse_form(const Parameter& parameter) {
-  for (const OtherForm& form : parameter.other_forms) {
-    if (form.dimension != nullptr) return &form;
-  }
-  return nullptr;
+  return first_of(parameter.other_forms,
+                  [](const OtherForm& form) { return form.dimension != nullptr; });
 }
 
 NumberText number_text(const Parameter& parameter) {

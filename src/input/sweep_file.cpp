@@ -91,7 +91,7 @@ class SweepReader {
       const std::string field = numbered("axes", i);
       if (i >= most_axes_of_a_sweep) {
         findings_.take(
-            {{field, "", "must be at most " + std::to_string(most_axes_of_a_sweep) + " axes", ""}},
+            {{field, "", "must be at most " + std::to_string(most_axes_of_a_sweep) + " axes"}},
             section.place());
         break;
       }
@@ -109,8 +109,7 @@ class SweepReader {
       if (quantity && quantity != Quantity::verdict) {
         asked.insert(*quantity);
       } else {
-        findings_.take({{numbered("quantities", i), "", one_of(names, texts[i]), ""}},
-                       section.place());
+        findings_.take({{numbered("quantities", i), "", one_of(names, texts[i])}}, section.place());
       }
     }
     return {asked.begin(), asked.end()};

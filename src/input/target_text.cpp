@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/lists.hpp"
 #include "gearlash/input.hpp"
 #include "input/units.hpp"
 #include "model/quantities.hpp"
@@ -62,7 +63,7 @@ class TargetReader {
       if (!parts || parts->limit.empty()) refuse(field_, condition, target_forms);
       add(condition, *parts);
     } catch (const InvalidInput& error) {
-      faults_.insert(faults_.end(), error.faults().begin(), error.faults().end());
+      add_all(faults_, error.faults());
     }
   }
 

@@ -12,7 +12,7 @@ namespace {
 
 [[noreturn]] void refuse_file(const std::filesystem::path& path, const std::string& problem) {
   throw InvalidInput({{"file", shown(path.string(), std::string_view::npos),
-                       "must be a readable file (" + problem + ")", ""}});
+                       "must be a readable file (" + problem + ")"}});
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ std::string read_text_file(const std::filesystem::path& path, std::size_t larges
   text.resize(static_cast<std::size_t>(stream.gcount()));
   if (text.size() > largest) {
     throw InvalidInput({{"file", shown(path.string(), std::string_view::npos),
-                         "must be at most " + std::to_string(largest) + " bytes long", ""}});
+                         "must be at most " + std::to_string(largest) + " bytes long"}});
   }
   return text;
 }

@@ -129,9 +129,7 @@ class TolerancedReader {
       values.push_back(read_exact_(field_, *value));
       lots.lots.push_back({values.back().si, weight});
     }
-    const auto heaviest =
-        std::max_element(lots.lots.begin(), lots.lots.end(),
-                         [](const Lot& a, const Lot& b) { return a.weight < b.weight; });
+    const auto heaviest = std::max_element(lots.lots.begin(), lots.lots.end(), by(&Lot::weight));
     return {values[static_cast<std::size_t>(heaviest - lots.lots.begin())], lots};
   }
 

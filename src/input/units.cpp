@@ -167,7 +167,7 @@ Measured read_quantity(std::string_view field, std::string_view text, const Dime
 }
 
 [[noreturn]] void refuse(std::string_view field, std::string_view text, std::string permitted) {
-  throw InvalidInput({{std::string(field), shown(text), std::move(permitted), ""}});
+  throw InvalidInput({{std::string(field), shown(text), std::move(permitted)}});
 }
 
 std::string_view trimmed(std::string_view text) {

@@ -1,15 +1,14 @@
 #include "gearlash/answer.hpp"
 
-#include <algorithm>
 #include <cmath>
 
+#include "base/lists.hpp"
 #include "base/names.hpp"
 
 namespace gearlash {
 
 std::size_t SearchRecord::count(const std::string& end) const {
-  return static_cast<std::size_t>(std::count_if(
-      starts.begin(), starts.end(), [&](const StartOutcome& start) { return start.end == end; }));
+  return count_of(starts, [&](const StartOutcome& start) { return start.end == end; });
 }
 
 const Cycle* Answer::largest_stable() const noexcept {

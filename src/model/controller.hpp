@@ -1,13 +1,13 @@
 // The linear form of every controller, and the timing of a sampled one.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <tuple>
 #include <vector>
 
 #include "base/fault.hpp"
 #include "base/interval.hpp"
+#include "base/lists.hpp"
 #include "gearlash/controller.hpp"
 
 namespace gearlash::drive {
@@ -51,8 +51,8 @@ inline bool is_of_difference(const std::vector<Interval>& row) {
 template <class Number>
 bool knows_error_alone(const LinearControllerOf<Number>& controller) {
   return is_of_difference(controller.direct) &&
-         std::all_of(controller.input_matrix.begin(), controller.input_matrix.end(),
-                     [](const std::vector<Number>& row) { return is_of_difference(row); });
+         all_of(controller.input_matrix,
+                [](const std::vector<Number>& row) { return is_of_difference(row); });
 }
 
 /// Work and memory grow with its cube, and coefficients of a higher order lose their digits.

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/lists.hpp"
 #include "base/number.hpp"
 #include "model/controller.hpp"
 #include "numeric/vector_algebra.hpp"
@@ -140,19 +141,12 @@ LinearControllerOf<Number> linear(const LeadLagController& lead_lag, const Gain&
   return canonical_form<Number>({whole / zero, whole}, {1.0 / pole, 1.0});
 }
 
-template <class Gain>
-auto numbers_of(const std::vector<double>& values, const Gain& gain) {
-  std::vector<decltype(gain(0.0))> result;
-  for (const double value : values) result.push_back(gain(value));
-  return result;
-}
-
 template <class Number, class Gain>
 LinearControllerOf<Number> linear(const TransferFunctionController& function, const Gain& gain,
                                   const Number& scale) {
   LinearControllerOf<Number> result = canonical_form<Number>(
-      scaled<Number>(scale * gain(function.gain), numbers_of(function.numerator, gain)),
-      numbers_of(function.denominator, gain));
+      scaled<Number>(scale * gain(function.gain), of_each(function.numerator, gain)),
+      of_each(function.denominator, gain));
   result.is_of_samples = function.is_sampled;
   return result;
 }
@@ -160,7 +154,7 @@ LinearControllerOf<Number> linear(const TransferFunctionController& function, co
 /// Columns for r, y and v, from a single column for the error.
 template <class Gain>
 auto row_of_three_inputs(const std::vector<double>& row, const Gain& gain) {
-  auto result = numbers_of(row, gain);
+  auto result = of_each(row, gain);
   if (row.size() == 1) result = {result[0], -result[0], 0.0};
   return result;
 }
@@ -170,13 +164,11 @@ LinearControllerOf<Number> linear(const StateSpaceController& system, const Gain
                                   const Number& scale) {
   const Number factor = scale * gain(system.gain);
   LinearControllerOf<Number> result;
-  for (const std::vector<double>& row : system.A) {
-    result.state_matrix.push_back(numbers_of(row, gain));
-  }
-  for (const std::vector<double>& row : system.B) {
-    result.input_matrix.push_back(row_of_three_inputs(row, gain));
-  }
-  result.output = scaled<Number>(factor, numbers_of(system.C, gain));
+  result.state_matrix =
+      of_each(system.A, [&](const std::vector<double>& row) { return of_each(row, gain); });
+  result.input_matrix = of_each(
+      system.B, [&](const std::vector<double>& row) { return row_of_three_inputs(row, gain); });
+  result.output = scaled<Number>(factor, of_each(system.C, gain));
   result.direct = scaled<Number>(factor, row_of_three_inputs(system.D, gain));
   return result;
 }

@@ -1,9 +1,9 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "base/lists.hpp"
 #include "base/range_check.hpp"
 #include "gearlash/bounds.hpp"
 #include "model/controller_forms.hpp"
@@ -112,7 +112,7 @@ bool acts_on_error(const Drive& drive) {
   const auto is_of_error = [&](const std::vector<double>& row) {
     return row.size() != 3 || (row[0] == -row[1] && (!drive.is_rounded || row[0] == 0.0));
   };
-  return is_of_error(system->D) && std::all_of(system->B.begin(), system->B.end(), is_of_error);
+  return is_of_error(system->D) && all_of(system->B, is_of_error);
 }
 
 /// Dead bands, and compensations of the error.
@@ -211,9 +211,9 @@ std::vector<Fault> servo_faults(const Drivetrain& drivetrain) {
   }
   const double frequency = natural_frequency(drivetrain);
   if (found.empty() && !std::isnormal(frequency)) {
-    found.push_back({"natural_frequency", frequency > 1.0 ? "inf rad/s" : "0 rad/s",
-                     "must be from 1e-308 to 1e308 rad/s: stiffness and inertias are too far apart",
-                     ""});
+    found.push_back(
+        {"natural_frequency", frequency > 1.0 ? "inf rad/s" : "0 rad/s",
+         "must be from 1e-308 to 1e308 rad/s: stiffness and inertias are too far apart"});
   }
   return found;
 }
@@ -245,9 +245,7 @@ void check_columns(RangeCheck& check, const Drive& drive) {
     return row.size() != 1 && row.size() != 3;
   };
   constexpr char permitted[] = "must have 1 number a row, of the error, or 3, of r, y and v";
-  if (std::any_of(system->B.begin(), system->B.end(), is_wrong)) {
-    check.refuse("controller.B", "", permitted);
-  }
+  if (any_of(system->B, is_wrong)) check.refuse("controller.B", "", permitted);
   if (is_wrong(system->D)) check.refuse("controller.D", "", permitted);
 }
 
@@ -341,10 +339,9 @@ void check_table(RangeCheck& check, const std::string& section,
   const auto* table = signal ? std::get_if<TableSignal>(&*signal) : nullptr;
   if (table == nullptr || table->file.empty()) return;
   for (const std::vector<double>* numbers : {&table->times, &table->values}) {
-    const auto large = std::find_if(numbers->begin(), numbers->end(), [](double number) {
-      return std::abs(number) > largest_number;
-    });
-    if (large == numbers->end()) continue;
+    const double* large =
+        first_of(*numbers, [](double number) { return std::abs(number) > largest_number; });
+    if (large == nullptr) continue;
     check.refuse(section + ".file", table->file,
                  "must hold numbers of at most " + exact_text(largest_number) + " in size, not " +
                      exact_text(*large));
@@ -417,7 +414,7 @@ std::vector<Fault> faults(const Drive& drive, drive::ReducedDrive& reduced) {
   reduced = reduce(mended);
   for (Fault& fault : joint_faults(mended, reduced)) {
     const auto is_known = [&](const Fault& other) { return other.path == fault.path; };
-    if (std::none_of(found.begin(), found.end(), is_known)) found.push_back(std::move(fault));
+    if (!any_of(found, is_known)) found.push_back(std::move(fault));
   }
   return found;
 }

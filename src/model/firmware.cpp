@@ -140,21 +140,19 @@ std::vector<Fault> faults_of_motor(const Firmware& firmware, const Drive& drive)
   if (is_current) {
     if (!has_torque(drive) || torque_constant_of(drive.motor)) return {};
     return {{"motor.torque_constant", "",
-             "must be given: the output of simplefoc for a torque-controlled motor is a current",
-             ""}};
+             "must be given: the output of simplefoc for a torque-controlled motor is a current"}};
   }
   if (is_share && has_torque(drive)) {
     return {{of_kind, word_of(firmware),
-             "must drive its motor by a voltage, which a torque-controlled motor is not", ""}};
+             "must drive its motor by a voltage, which a torque-controlled motor is not"}};
   }
   if (is_share && !drive.motor.limit) {
     return {{"motor.voltage_limit", "",
-             "must be given: the supply voltage, of which the output of dynamixel-x is a share",
-             ""}};
+             "must be given: the supply voltage, of which the output of dynamixel-x is a share"}};
   }
   if (!is_share && !has_torque(drive)) {
     return {{of_kind, word_of(firmware),
-             "must control a torque-controlled motor: its gains are torques", ""}};
+             "must control a torque-controlled motor: its gains are torques"}};
   }
   return {};
 }
@@ -212,8 +210,7 @@ std::vector<Fault> firmware_faults(const Drive& drive) {
   if (!drive.sampling) {
     found.push_back({"sampling.period", "",
                      "must be given beside " + word_of(*drive.controller.firmware) +
-                         ", which is sampled: its manual does not state the period",
-                     ""});
+                         ", which is sampled: its manual does not state the period"});
   }
   return found;
 }

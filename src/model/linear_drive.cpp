@@ -1,9 +1,9 @@
 #include "model/linear_drive.hpp"
 
-#include <algorithm>
 #include <utility>
 #include <variant>
 
+#include "base/lists.hpp"
 #include "base/number.hpp"
 #include "model/controller.hpp"
 
@@ -207,23 +207,19 @@ LinearDrive<Number> made_of(const ReducedDrive& form, const drive::ReducedDriveO
 
 template <class Number>
 std::vector<Number> LinearSystem<Number>::column(LinearInput input) const {
-  std::vector<Number> column;
-  for (const LinearForm<Number>& slope : slopes) column.push_back(slope[input]);
-  return column;
+  return of_each(slopes, [&](const LinearForm<Number>& slope) { return slope[input]; });
 }
 
 template <class Number>
 bool LinearDrive<Number>::uses_speed() const {
   const auto uses = [](const std::vector<Number>& row) { return !is_exactly(row[2], 0.0); };
-  return uses(controller.direct) ||
-         std::any_of(controller.input_matrix.begin(), controller.input_matrix.end(), uses);
+  return uses(controller.direct) || any_of(controller.input_matrix, uses);
 }
 
 template <class Number>
 bool LinearDrive<Number>::knows_error_alone() const {
   const auto knows = [](const std::vector<Number>& row) { return is_exactly(row[0], 0.0); };
-  return knows(controller.direct) &&
-         std::all_of(controller.input_matrix.begin(), controller.input_matrix.end(), knows);
+  return knows(controller.direct) && all_of(controller.input_matrix, knows);
 }
 
 template <class Number>

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/lists.hpp"
 #include "base/overloaded.hpp"
 #include "gearlash/parameter.hpp"
 #include "model/reduced_drive.hpp"
@@ -11,7 +12,7 @@ namespace gearlash {
 namespace {
 
 [[noreturn]] void refuse(std::string_view path, const char* permitted) {
-  throw InvalidInput({{std::string(path), "", permitted, ""}});
+  throw InvalidInput({{std::string(path), "", permitted}});
 }
 
 /// "controller.A" and 1, 2 of "controller.A[1][2]".
@@ -71,10 +72,7 @@ ParameterKind kind_of(const Parameter& parameter, const Drive& drive) {
 }
 
 const OtherForm* form_named(const Parameter& parameter, std::string_view path) {
-  for (const OtherForm& form : parameter.other_forms) {
-    if (form.path == path) return &form;
-  }
-  return nullptr;
+  return first_of(parameter.other_forms, [&](const OtherForm& form) { return form.path == path; });
 }
 
 void take_form_with(Drive& drive, std::string_view path) {
@@ -124,7 +122,7 @@ std::vector<ParameterInfo> parameters_of(const Drive& drive) {
                        .usual_low = parameter.usual.low,
                        .usual_high = parameter.usual.high,
                        .is_logarithmic = parameter.usual.is_logarithmic};
-    for (const OtherForm& form : parameter.other_forms) info.aliases.push_back(form.path);
+    info.aliases = of_each(parameter.other_forms, &OtherForm::path);
     list.push_back(std::move(info));
   }
   return list;

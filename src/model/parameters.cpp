@@ -3,6 +3,7 @@
 #include <iterator>
 #include <unordered_map>
 
+#include "base/lists.hpp"
 #include "model/parameter_list.hpp"
 
 namespace gearlash {
@@ -86,7 +87,7 @@ bool may_be_rounded(const Parameter& parameter, const Drive& drive) {
 
 std::vector<std::string> words_of(const Parameter& parameter) {
   std::vector<std::string> words(parameter.choices.begin(), parameter.choices.end());
-  for (const OtherWord& other : parameter.other_words) words.emplace_back(other.word);
+  add_all(words, of_each<std::string>(parameter.other_words, &OtherWord::word));
   return words;
 }
 

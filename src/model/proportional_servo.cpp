@@ -1,9 +1,9 @@
 #include "model/proportional_servo.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "base/lists.hpp"
 #include "model/parameters.hpp"
 #include "model/reduced_drive.hpp"
 #include "model/reduction.hpp"
@@ -15,8 +15,7 @@ namespace {
 /// integrator without gain, or a lead-lag element whose zero equals its pole, is proportional too.
 bool is_proportional(const LinearController& controller) {
   const auto is_zero = [](double gain) { return gain == 0.0; };
-  return std::all_of(controller.output.begin(), controller.output.end(), is_zero) &&
-         controller.direct[0] == -controller.direct[1];
+  return all_of(controller.output, is_zero) && controller.direct[0] == -controller.direct[1];
 }
 
 bool is_undisturbed(const ReducedDrive& drive) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <type_traits>
 
+#include "base/lists.hpp"
 #include "base/member_path.hpp"
 
 namespace gearlash {
@@ -196,10 +197,10 @@ std::string_view name_of(Quantity quantity) noexcept { return info_of(quantity).
 std::optional<Quantity> find_quantity(std::string_view name) {
   std::string wanted(name);
   std::replace(wanted.begin(), wanted.end(), '-', '_');
-  const auto found = std::find_if(entries.begin(), entries.end(), [&](const QuantityEntry& entry) {
+  const QuantityEntry* found = first_of(entries, [&](const QuantityEntry& entry) {
     return wanted == entry.info.name || (!entry.older_name.empty() && wanted == entry.older_name);
   });
-  return found == entries.end() ? std::nullopt : std::optional(found->info.quantity);
+  return found == nullptr ? std::nullopt : std::optional(found->info.quantity);
 }
 
 std::optional<double> Answer::value(Quantity quantity) const {

@@ -1,6 +1,5 @@
 #include "numeric/decaying_motion.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <complex>
 

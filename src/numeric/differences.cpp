@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/lists.hpp"
 #include "base/special_numbers.hpp"
 
 namespace gearlash {
@@ -116,7 +117,7 @@ std::vector<Difference> differences(const NumbersAt& numbers, double present,
     all.emplace_back(here[i], size / steps.unit);
   }
   const auto are_settled = [&] {
-    return std::all_of(all.begin(), all.end(), [](const auto& one) { return one.is_settled(); });
+    return all_of(all, [](const auto& one) { return one.is_settled(); });
   };
   double step = steps.first * steps.unit;
   for (int i = 0; i <= steps.halvings && !are_settled(); ++i, step *= 0.5) {
@@ -130,13 +131,10 @@ std::vector<Difference> differences(const NumbersAt& numbers, double present,
       all[k].add(below[k], above[k], present - low, high - present);
     }
   }
-  std::vector<Difference> found;
-  for (const NumberDifferences& one : all) {
+  return of_each(all, [](const NumberDifferences& one) {
     const Difference difference = one.found();
-    found.push_back(one.is_within(difference, acceptable) ? difference
-                                                          : Difference{not_a_number, infinity});
-  }
-  return found;
+    return one.is_within(difference, acceptable) ? difference : Difference{not_a_number, infinity};
+  });
 }
 
 }  // namespace gearlash

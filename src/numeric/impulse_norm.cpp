@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/lists.hpp"
 #include "base/number.hpp"
 #include "numeric/decaying_motion.hpp"
 #include "numeric/vector_algebra.hpp"
@@ -176,7 +177,7 @@ struct Part {
     return view.size * sum_of_sizes(state) / rate * rounded_up;
   }
   bool is_over() const {
-    return std::all_of(views.begin(), views.end(), [](const View& view) { return view.is_over; });
+    return all_of(views, [](const View& view) { return view.is_over; });
   }
   double step(double size_of_state);
   void advance(double length, std::vector<Series>& sums, std::vector<Interval>& errors);
@@ -378,7 +379,7 @@ Interval DecayingMotion::impulse_norm(const IntervalVector& input,
 std::vector<Interval> DecayingMotion::impulse_norms(
     const IntervalVector& input, const std::vector<IntervalVector>& outputs) const {
   const auto is_nothing = [](const Interval& number) { return is_exactly(number, 0.0); };
-  if (std::all_of(input.begin(), input.end(), is_nothing)) {
+  if (all_of(input, is_nothing)) {
     return std::vector<Interval>(outputs.size(), Interval(0.0));
   }
   const Transformed start = transformed_input(basis_, inverse_, input);
@@ -405,10 +406,10 @@ std::vector<Interval> DecayingMotion::impulse_norms(
   // What the block diagonal motion leaves out.
   const Interval spread = inverse_error_ * Interval(size_of(start.error));
   const std::vector<double> start_errors = norms(start.error);
-  std::vector<Interval> durations;  // ≥ ∫‖ξ̂‖ dt of each block
-  for (const Part& part : parts) {
-    durations.push_back(Interval(size_of({part.state.begin(), part.state.end()})) / part.rate);
-  }
+  // ≥ ∫‖ξ̂‖ dt of each block.
+  const std::vector<Interval> durations = of_each(parts, [](const Part& part) {
+    return Interval(size_of({part.state.begin(), part.state.end()})) / part.rate;
+  });
   std::vector<double> sources;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     Interval source = start_errors[i] + spread;

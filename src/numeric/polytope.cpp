@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/lists.hpp"
 #include "numeric/linear_algebra.hpp"
 
 namespace gearlash {
@@ -24,10 +25,9 @@ bool Polytope::contains(const Eigen::VectorXd& point) const {
     const double terms = side.normal.cwiseAbs().dot(point.cwiseAbs()) + std::abs(side.value);
     return terms == 0.0 ? 0.0 : (side.normal.dot(point) - side.value) / terms;
   };
-  return std::all_of(equalities_.begin(), equalities_.end(),
-                     [&](const Side& side) { return std::abs(excess(side)) <= tolerance; }) &&
-         std::all_of(inequalities_.begin(), inequalities_.end(),
-                     [&](const Side& side) { return excess(side) <= tolerance; });
+  return all_of(equalities_,
+                [&](const Side& side) { return std::abs(excess(side)) <= tolerance; }) &&
+         all_of(inequalities_, [&](const Side& side) { return excess(side) <= tolerance; });
 }
 
 std::optional<Extent> Polytope::range_of(const Eigen::VectorXd& form) const {

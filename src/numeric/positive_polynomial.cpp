@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/lists.hpp"
 #include "base/number.hpp"
 
 namespace gearlash {
@@ -13,8 +14,8 @@ constexpr int deepest = 40;
 /// Whether the polynomial with these Bernstein coefficients is positive from 0 to 1.
 bool is_positive_between(const std::vector<Interval>& coefficients, int depth) {
   if (!(coefficients.front().low > 0.0 && coefficients.back().low > 0.0)) return false;
-  const bool is_shown = std::all_of(coefficients.begin(), coefficients.end(),
-                                    [](const Interval& number) { return number.low > 0.0; });
+  const bool is_shown =
+      all_of(coefficients, [](const Interval& number) { return number.low > 0.0; });
   if (is_shown) return true;
   if (depth == deepest) return false;
   // De Casteljau's rule, in halves.

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "base/lists.hpp"
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
 #include "numeric/linear_algebra.hpp"
@@ -19,8 +20,7 @@ using std::numbers::pi;
 void check_polynomial(RangeCheck& check, std::string_view field,
                       const std::vector<double>& coefficients) {
   for (const double coefficient : coefficients) check.finite(field, coefficient);
-  const bool has_some = std::any_of(coefficients.begin(), coefficients.end(),
-                                    [](double coefficient) { return coefficient != 0.0; });
+  const bool has_some = any_of(coefficients, [](double coefficient) { return coefficient != 0.0; });
   if (!has_some) check.refuse(field, "", "must have a coefficient other than 0");
 }
 

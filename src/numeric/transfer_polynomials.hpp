@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/lists.hpp"
 #include "numeric/vector_algebra.hpp"
 
 namespace gearlash {
@@ -42,10 +43,8 @@ auto transfer_polynomials(const System& system) {
   };
   for (std::size_t k = 1; k <= order; ++k) {
     for (std::size_t input = 0; input < inputs; ++input) {
-      Row of_input;
-      for (const Row& row : system.input_matrix) of_input.push_back(row[input]);
-      Row column;
-      for (const Row& row : adjugate) column.push_back(dot(row, of_input));
+      const Row of_input = of_each(system.input_matrix, [&](const Row& row) { return row[input]; });
+      const Row column = of_each(adjugate, [&](const Row& row) { return dot(row, of_input); });
       result.numerators[input][order - k] = dot(system.output, column);
     }
     adjugate = moved(adjugate);

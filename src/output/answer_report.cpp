@@ -378,9 +378,8 @@ std::string larger_motion(const AnswerReport& report) {
     motions.push_back({motion.amplitude, motion.motor_amplitude.value_or(0.0), motion.starts});
   }
   if (motions.empty()) return "";
-  const SeenMotion& largest = *std::max_element(
-      motions.begin(), motions.end(),
-      [](const SeenMotion& a, const SeenMotion& b) { return a.extent() < b.extent(); });
+  const SeenMotion& largest =
+      *std::max_element(motions.begin(), motions.end(), by(&SeenMotion::extent));
   constexpr double clearly = 1.5;  // irregular motion varies
   if (largest.starts == 0 || largest.extent() <= clearly * motions.front().extent()) return "";
   return fmt::format("; {} of {} hunt by {}", largest.starts,

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/lists.hpp"
 #include "output/columns.hpp"
@@ -106,8 +105,7 @@ std::optional<double> elasticity_of(const Jacobian& sensitivity, Quantity quanti
 }
 
 std::vector<std::size_t> by_falling_effect(const Jacobian& sensitivity) {
-  std::vector<std::size_t> order(sensitivity.paths.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<std::size_t> order = indices(sensitivity.paths.size());
   const Quantity quantity = quantity_of_effect(sensitivity);
   // Equal ones differ in what is beyond the accuracy of differences.
   const auto falling_effect = [&](std::size_t parameter) {

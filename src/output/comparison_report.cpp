@@ -55,7 +55,7 @@ std::string stability_text(const ComparedDrive& one) {
 TextRows rows_of(const ComparisonReport& report) {
   const AngleUnit& angle = report.angles.front();
   TextRows rows = {{report.axis ? report.axis->path : "drive"}};
-  for (const ComparedDrive& one : report.drives) rows.front().push_back(one.name);
+  add_all(rows.front(), of_each(report.drives, &ComparedDrive::name));
   rows.push_back(row_of(report, "certainty", [](const ComparedDrive& one) {
     return std::string(name_of(one.answer->certainty));
   }));
@@ -72,7 +72,7 @@ TextRows rows_of(const ComparisonReport& report) {
                             return significant(angle.from_radians(one.encoder_step), usual_digits);
                           }));
   }
-  for (const Quantity quantity : report.quantities) rows.push_back(row_of(report, quantity));
+  add_all(rows, of_each(report.quantities, [&](Quantity one) { return row_of(report, one); }));
   return rows;
 }
 
@@ -179,14 +179,12 @@ std::optional<double> step_of(const ComparisonReport& report) {
 }
 
 std::vector<NamedDrive> drives_along(const Axis& axis, const Drive& drive, const AngleUnit& angle) {
-  std::vector<NamedDrive> drives;
-  for (const double value : axis.values) {
+  return of_each(axis.values, [&](double value) {
     NamedDrive one{.drive = drive};
     set_on(axis, one.drive, value);
     one.name = ParameterText(one.drive, axis.path, angle).of(value);
-    drives.push_back(std::move(one));
-  }
-  return drives;
+    return one;
+  });
 }
 
 std::string comparison_headlines(const ComparisonReport& report) {

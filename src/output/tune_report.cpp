@@ -27,11 +27,9 @@ std::string parameter_text(const TuneReport& report, const std::string& path, do
 template <class Named>
 std::string values_text(const TuneReport& report, const std::vector<Named>& named,
                         const std::vector<double>& values) {
-  std::vector<std::string> texts;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    texts.push_back(named[i].path + " = " + parameter_text(report, named[i].path, values[i]));
-  }
-  return listed(texts);
+  return listed(indices(values.size()), [&](std::size_t i) {
+    return named[i].path + " = " + parameter_text(report, named[i].path, values[i]);
+  });
 }
 
 std::string table_of_values(const TuneReport& report) {

@@ -1,23 +1,21 @@
 #include "picture/answer_picture.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "base/lists.hpp"
 #include "picture/attractor_picture.hpp"
 #include "picture/phase_portrait.hpp"
+#include "question/axis.hpp"
 
 namespace gearlash {
 namespace {
 
 /// A round number not far above `value`.
 double round_up(double value) {
-  const double power = std::pow(10.0, std::floor(std::log10(value)));
-  for (const double factor : {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0}) {
-    if (value <= factor * power) return factor * power;
-  }
-  return 10.0 * power;
+  return round_number_from(value, std::array{1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0});
 }
 
 /// A step from rest that shows both the approach and the cycle. Its height is free, because

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/lists.hpp"
 #include "model/reduced_drive.hpp"
 #include "model/signal.hpp"
 #include "output/report_units.hpp"
@@ -83,15 +84,13 @@ const drive::Outcome* start_to_show(const drive::AttractorSearch& search, const 
   };
   if (seen.amplitude == 0.0) {
     const auto middle = starts.begin() + static_cast<std::ptrdiff_t>(starts.size() / 2);
-    std::nth_element(starts.begin(), middle, starts.end(),
-                     [&](const auto* a, const auto* b) { return away(a) < away(b); });
+    std::nth_element(starts.begin(), middle, starts.end(), by(away));
     return *middle;
   }
   const auto miss = [&](const drive::Outcome* outcome) {
     return std::abs(away(outcome) - 2.0 * seen.amplitude);
   };
-  return *std::min_element(starts.begin(), starts.end(),
-                           [&](const auto* a, const auto* b) { return miss(a) < miss(b); });
+  return *std::min_element(starts.begin(), starts.end(), by(miss));
 }
 
 /// The last few mean periods of the watched motion.

@@ -115,9 +115,9 @@ std::string colour_of(const Cells& cells, double value) {
 }
 
 std::vector<Tic> numbered(const std::vector<std::string>& names) {
-  std::vector<Tic> tics;
-  for (const std::string& name : names) tics.push_back({static_cast<double>(tics.size()), name});
-  return tics;
+  return of_each(indices(names.size()), [&](std::size_t i) {
+    return Tic{static_cast<double>(i), names[i]};
+  });
 }
 
 PlotAxis axis_of_names(std::string name, const std::vector<std::string>& names) {

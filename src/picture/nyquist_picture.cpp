@@ -227,14 +227,11 @@ std::vector<double> round_numbers() {
 
 /// The roundest first, of L.
 std::vector<Candidate> frequencies(const NyquistPicture& picture) {
-  std::vector<Candidate> candidates;
-  for (const double number : round_numbers()) {
+  return of_each(round_numbers(), [&](double number) {
     const double frequency = picture.is_normalized ? number : turn * number;
-    candidates.push_back(
-        {loop_at(picture.analyses.front().loop, frequency),
-         significant(number, label_digits) + (picture.is_normalized ? " ω_n" : " Hz")});
-  }
-  return candidates;
+    return Candidate{loop_at(picture.analyses.front().loop, frequency),
+                     significant(number, label_digits) + (picture.is_normalized ? " ω_n" : " Hz")};
+  });
 }
 
 /// The most telling first, of −1/N.
@@ -322,11 +319,8 @@ MapCurve arrow_of(const PaperLine& seen, const Paper& paper) {
   const Complex tail = seen[seen.size() * 2 / 5];
   const Complex way = seen[seen.size() * 2 / 5 + apart] - tail;
   const Complex unit = way / std::abs(way);
-  MapCurve outline;
-  for (const Complex& corner : {Complex{13.0, 0.0}, Complex{0.0, 4.5}, Complex{0.0, -4.5}}) {
-    outline.push_back(paper.on_map(tail + corner * unit));
-  }
-  return outline;
+  return of_each(std::array{Complex{13.0, 0.0}, Complex{0.0, 4.5}, Complex{0.0, -4.5}},
+                 [&](const Complex& corner) { return paper.on_map(tail + corner * unit); });
 }
 
 bool is_seen(const Complex& point, const Paper& paper, double margin = 0.0) {
@@ -391,14 +385,10 @@ std::vector<DescribingAnalysis> loop_analyses(const std::vector<DescribingAnalys
   const auto is_gap = [](DescribedPart other) {
     return other == DescribedPart::gap_load_held || other == DescribedPart::gap_load_coasting;
   };
-  std::vector<DescribingAnalysis> found;
-  std::copy_if(analyses.begin(), analyses.end(), std::back_inserter(found),
-               [&](const DescribingAnalysis& analysis) {
-                 const bool is_wanted =
-                     analysis.part == part || (is_gap(part) && is_gap(analysis.part));
-                 return is_wanted && is_in_loop(analysis);
-               });
-  return found;
+  return those_of(analyses, [&](const DescribingAnalysis& analysis) {
+    const bool is_wanted = analysis.part == part || (is_gap(part) && is_gap(analysis.part));
+    return is_wanted && is_in_loop(analysis);
+  });
 }
 
 Plot nyquist_plot(const NyquistPicture& picture) {

@@ -200,7 +200,7 @@ double TextPlacer::clearance(const PaperPoint& from, const PaperPoint& to,
 
 void TextPlacer::take(const PaperPoint& from, const PaperPoint& to) {
   const PaperLine points = middle_of(from, to);
-  taken_.insert(taken_.end(), points.begin(), points.end());
+  add_all(taken_, points);
 }
 
 }  // namespace gearlash

@@ -72,11 +72,8 @@ std::vector<const drive::Outcome*> starts_within(const StartPlane& plane,
     within.push_back(&outcome);
   }
   if (within.size() <= most) return within;
-  std::vector<const drive::Outcome*> chosen;
-  for (std::size_t i = 0; i < most; ++i) {
-    chosen.push_back(within[i * (within.size() - 1) / (most - 1)]);
-  }
-  return chosen;
+  return of_each(indices(most),
+                 [&](std::size_t i) { return within[i * (within.size() - 1) / (most - 1)]; });
 }
 
 }  // namespace
@@ -142,10 +139,9 @@ void add_portrait(MotionPicture& picture, const drive::ReducedDrive& reduced,
                                .leads = role_of(basins->kinds[i])});
     }
     for (const MapCurve& curve : basins->borders) {
-      MapCurve& drawn = window.borders.emplace_back();
-      for (const MapPoint& point : curve) {
-        drawn.push_back({angle.from_radians(point.x), angle.from_radians(point.y)});
-      }
+      window.borders.push_back(of_each(curve, [&](const MapPoint& point) {
+        return MapPoint{angle.from_radians(point.x), angle.from_radians(point.y)};
+      }));
     }
   }
   picture.window = std::move(window);

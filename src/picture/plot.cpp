@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "base/extent.hpp"
+#include "base/lists.hpp"
 #include "base/special_numbers.hpp"
 #include "output/report_units.hpp"
 
@@ -133,7 +135,7 @@ Plot plot_of(std::string title, std::string subtitle, Panel panel) {
 
 void append(const MapCurve& curve, MapCurve& points) {
   if (!points.empty()) points.push_back({not_a_number, not_a_number});
-  points.insert(points.end(), curve.begin(), curve.end());
+  add_all(points, curve);
 }
 
 MapCurve joined(const std::vector<MapCurve>& curves) {
@@ -191,12 +193,7 @@ std::string mixed(const Colour& from, const Colour& to, double share) {
 }
 
 double round_step(double length, int most) {
-  const double least = length / most;
-  const double power = std::pow(10.0, std::floor(std::log10(least)));
-  for (const double digit : {1.0, 2.0, 5.0}) {
-    if (digit * power >= least) return digit * power;
-  }
-  return 10.0 * power;
+  return round_number_from(length / most, std::array{1.0, 2.0, 5.0});
 }
 
 Bounds widened(const Bounds& range, double margin) {

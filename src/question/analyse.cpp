@@ -10,6 +10,7 @@
 
 #include "base/arithmetic.hpp"
 #include "base/interval.hpp"
+#include "base/lists.hpp"
 #include "base/names.hpp"
 #include "base/number.hpp"
 #include "base/range_check.hpp"
@@ -115,7 +116,7 @@ void add_pieces(const std::vector<RestPiece>& pieces, Rest& rest) {
   rest.pieces = pieces;
   rest.certainty = Certainty::computed;
   const auto acts = [](const RestPiece& piece) { return piece.kind == RestKind::torque_limit; };
-  const bool all_are_limited = std::all_of(pieces.begin(), pieces.end(), acts);
+  const bool all_are_limited = all_of(pieces, acts);
   Extent load;
   Extent motor;
   for (const RestPiece& piece : pieces) {
@@ -137,7 +138,7 @@ RestPlace mirrored(const RestPlace& place) {
 
 /// Whether a start came to rest there; or at the mirror image, of a drive that is its own.
 bool is_reached(const RestPiece& piece, const drive::AttractorSearch& search, bool has_image) {
-  return std::any_of(search.outcomes.begin(), search.outcomes.end(), [&](const auto& start) {
+  return any_of(search.outcomes, [&](const auto& start) {
     return start.rest &&
            (may_hold(piece, *start.rest) || (has_image && may_hold(piece, mirrored(*start.rest))));
   });
@@ -172,7 +173,7 @@ Rest rest_of(const drive::AttractorSearch& search, const drive::ReducedDrive& re
   const bool has_image = drive::is_own_image(reduced);
   const auto reached = [&](const RestPiece& piece) { return is_reached(piece, search, has_image); };
   // Where none is reached the answer contradicts itself, and keeps what shows it.
-  if (!drive::has_dry_friction(reduced) && std::any_of(pieces.begin(), pieces.end(), reached)) {
+  if (!drive::has_dry_friction(reduced) && any_of(pieces, reached)) {
     std::erase_if(pieces, std::not_fn(reached));
   }
   if (pieces.empty()) return rest;
@@ -214,8 +215,7 @@ Verdict verdict_of(const drive::AttractorSearch& search, const drive::ReducedDri
   const bool is_open_at_large = !search.is_complete || few * undecided > search.outcomes.size();
   if (swings && is_driven(reduced)) return Verdict::forced;
   if (swings && rests) return Verdict::hunts_if_disturbed;
-  if (cycles || std::any_of(motions.begin(), motions.end(),
-                            [](const IrregularMotion& motion) { return motion.repeats(); }))
+  if (cycles || any_of(motions, [](const IrregularMotion& motion) { return motion.repeats(); }))
     return Verdict::hunts;
   if (swings) return Verdict::hunts_irregularly;
   // An undecided start may stay bounded, or hunt.
@@ -281,10 +281,7 @@ Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive
   answer.search = SearchRecord{.watch_time = search.watch_time,
                                .is_complete = search.is_complete,
                                .borders = search.edges.size(),
-                               .starts = {}};
-  for (const drive::Outcome& outcome : search.outcomes) {
-    answer.search->starts.push_back(outcome_of(outcome));
-  }
+                               .starts = of_each(search.outcomes, outcome_of)};
   answer.notes = notes_of(search);
   return answer;
 }
@@ -304,10 +301,9 @@ bool is_of_few_steps(const Answer& answer) {
 
 /// The first, the middle and the last start that lead to swings.
 std::vector<drive::ShaftStates> starts_that_swing(const drive::AttractorSearch& search) {
-  std::vector<drive::ShaftStates> all;
-  for (const drive::Outcome& outcome : search.outcomes) {
-    if (swings(outcome.end)) all.push_back(outcome.start);
-  }
+  std::vector<drive::ShaftStates> all = of_each(
+      those_of(search.outcomes, [](const drive::Outcome& outcome) { return swings(outcome.end); }),
+      &drive::Outcome::start);
   if (all.size() > 3) all = {all.front(), all[all.size() / 2], all.back()};
   return all;
 }

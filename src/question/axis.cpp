@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/lists.hpp"
 #include "base/range_check.hpp"
 #include "gearlash/parameter.hpp"
 #include "model/parameter_values.hpp"
@@ -12,7 +13,7 @@ namespace gearlash {
 namespace {
 
 [[noreturn]] void refuse(std::string_view field, std::string value, std::string permitted) {
-  throw InvalidInput({{std::string(field), std::move(value), std::move(permitted), ""}});
+  throw InvalidInput({{std::string(field), std::move(value), std::move(permitted)}});
 }
 
 bool is_word(const Parameter& parameter) { return !parameter.choices.empty(); }
@@ -62,10 +63,16 @@ void check_order(RangeCheck& check, const Axis& axis, bool are_words, std::strin
 
 }  // namespace
 
+double round_number_from(double number, std::span<const double> digits, double rounding) {
+  const double power = std::pow(10.0, std::floor(std::log10(number) + rounding));
+  const double* digit =
+      first_of(digits, [&](double one) { return one * power >= number * (1.0 - rounding); });
+  return digit != nullptr ? *digit * power : 10.0 * power;
+}
+
 const NormalFormNumber* normal_form_number(std::string_view path) {
-  const auto found = std::find_if(normal_form_numbers.begin(), normal_form_numbers.end(),
-                                  [&](const NormalFormNumber& one) { return one.path == path; });
-  return found == normal_form_numbers.end() ? nullptr : &*found;
+  return first_of(normal_form_numbers,
+                  [&](const NormalFormNumber& one) { return one.path == path; });
 }
 
 std::string_view path_of(const NormalFormNumber& number, bool is_normal_form) {
@@ -232,9 +239,8 @@ std::vector<Fault> faults_of_axis(const Axis& axis, const Drive& drive, std::str
   const auto refused = [&](double value) {
     return !faults_of_value(axis, *parameter, value).empty();
   };
-  const auto first = std::find_if(axis.values.begin(), axis.values.end(), refused);
-  if (first != axis.values.end()) {
-    const auto others = std::count_if(std::next(first), axis.values.end(), refused);
+  if (const double* first = first_of(axis.values, refused)) {
+    const std::size_t others = count_of(axis.values, refused) - 1;
     check.refuse(
         field, exact_text(*first) + (others > 0 ? " and " + std::to_string(others) + " more" : ""),
         axis.path + " " + faults_of_value(axis, *parameter, *first).front().permitted);

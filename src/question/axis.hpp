@@ -42,6 +42,10 @@ enum class Spacing { linear, logarithmic };
 Axis spaced_axis(std::string_view field, std::string path, double from, double to,
                  std::size_t count, Spacing spacing);
 
+/// The smallest product of one of the digits, which rise, and a power of ten that is not below the
+/// number, or below it by no more than this share.
+double round_number_from(double number, std::span<const double> digits, double rounding = 0.0);
+
 /// The parameter that the axis varies; nullptr if the drive does not have it. An absent part of the
 /// drive (sampling, say) is treated as present.
 const Parameter* parameter_of(const Axis& axis, const Drive& drive);

@@ -1,6 +1,5 @@
 #include "gearlash/comparison.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/on_threads.hpp"
@@ -92,14 +91,13 @@ std::vector<ComparedDrive> compare(const std::vector<NamedDrive>& drives,
   require_comparable(drives, options);
   const double step =
       options.step.value_or(drive::usual_step_size(reduce(drives.front().drive).backlash));
-  std::vector<ComparedDrive> all(drives.size());
   SharedProgress shared(progress, drives.size());
-  on_threads(0, drives.size(), [&](std::size_t i) {
-    all[i] = shared.is_stopped() ? ComparedDrive{.name = drives[i].name, .drive = drives[i].drive}
-                                 : compared(drives[i], step, options, shared);
+  return of_each_on_threads(drives, [&](const NamedDrive& one) {
+    ComparedDrive found = shared.is_stopped() ? ComparedDrive{.name = one.name, .drive = one.drive}
+                                              : compared(one, step, options, shared);
     shared.finish(1);
+    return found;
   });
-  return all;
 }
 
 }  // namespace gearlash

@@ -1,8 +1,8 @@
 #include "question/contradictions.hpp"
 
-#include <algorithm>
 #include <optional>
 
+#include "base/lists.hpp"
 #include "base/range_check.hpp"
 #include "question/loop/energy/computed_rest.hpp"
 
@@ -45,13 +45,10 @@ bool is_listed(const StartOutcome& start, const Answer& answer) {
 const StartOutcome* start_beside_rest(const Answer& answer) {
   if (!answer.rest || answer.rest->pieces.empty()) return nullptr;
   const std::vector<RestPiece>& pieces = answer.rest->pieces;
-  const std::vector<StartOutcome>& starts = answer.search->starts;
-  const auto found = std::find_if(starts.begin(), starts.end(), [&](const StartOutcome& start) {
-    return start.rest && std::none_of(pieces.begin(), pieces.end(), [&](const RestPiece& piece) {
-             return may_hold(piece, *start.rest);
-           });
+  return first_of(answer.search->starts, [&](const StartOutcome& start) {
+    return start.rest &&
+           !any_of(pieces, [&](const RestPiece& piece) { return may_hold(piece, *start.rest); });
   });
-  return found == starts.end() ? nullptr : &*found;
 }
 
 }  // namespace
@@ -61,8 +58,7 @@ std::vector<std::string> contradictions(const Answer& answer) {
   compare_with_ceiling(answer, all);
   if (!answer.search) return all;
   const std::vector<StartOutcome>& starts = answer.search->starts;
-  if (!std::all_of(starts.begin(), starts.end(),
-                   [&](const StartOutcome& start) { return is_listed(start, answer); })) {
+  if (!all_of(starts, [&](const StartOutcome& start) { return is_listed(start, answer); })) {
     all.push_back("A start leads to an end that is not listed.");
   }
   if (const StartOutcome* start = start_beside_rest(answer)) {

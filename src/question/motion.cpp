@@ -332,7 +332,7 @@ MotionSample Motion::at(double time) const {
 
 std::size_t Motion::sample_count(double every) const {
   if (!(every > 0.0)) {
-    throw InvalidInput({{"every", exact_text(every), "must be positive, in s", ""}});
+    throw InvalidInput({{"every", exact_text(every), "must be positive, in s"}});
   }
   return count_of_samples(source_->asked_until, every);
 }
@@ -375,7 +375,7 @@ Samples Motion::sampled(double every, Progress& progress) const {
   const auto count = sample_count(every);
   if (static_cast<double>(count) > most_samples) {
     throw InvalidInput(
-        {{"every", exact_text(every) + " s", "must give at most 100,000,000 samples", ""}});
+        {{"every", exact_text(every) + " s", "must give at most 100,000,000 samples"}});
   }
   return samples_of(*this, count, DecimalMultiples(every), progress);
 }
@@ -384,9 +384,8 @@ Samples Motion::at(std::span<const double> times, Progress& progress) const {
   const double last = std::max(end_time(), source_->asked_until);  // they differ by rounding
   for (const double time : times) {
     if (time >= 0.0 && time <= last) continue;
-    throw InvalidInput(
-        {{"times", exact_text(time) + " s",
-          "must be from 0 to the end of the motion, " + exact_text(last) + " s", ""}});
+    throw InvalidInput({{"times", exact_text(time) + " s",
+                         "must be from 0 to the end of the motion, " + exact_text(last) + " s"}});
   }
   return samples_of(
       *this, times.size(), [&](std::size_t i) { return times[i]; }, progress);

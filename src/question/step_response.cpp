@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/lists.hpp"
 #include "base/range_check.hpp"
 #include "general/assemble/time_scale.hpp"
 #include "general/attractors/motion_measures.hpp"
@@ -29,8 +30,7 @@ class Path {
       const double time = motion.end_time() * i / samples;
       points_.push_back({time, position(time)});
     }
-    std::stable_sort(points_.begin(), points_.end(),
-                     [](const Sample& a, const Sample& b) { return a.time < b.time; });
+    sort_by(points_, &Sample::time);
   }
 
   const std::vector<Sample>& points() const { return points_; }

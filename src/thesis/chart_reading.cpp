@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/lists.hpp"
 #include "base/range_check.hpp"
 #include "thesis/exact_curve.hpp"
 #include "thesis/figures.hpp"
@@ -23,12 +24,9 @@ std::vector<DesignChart1960> make_charts() {
     chart.inertia_ratios = figure.grid;
     for (const FigureCurve& curve : figure.curves) {
       chart.dampings.push_back(curve.servo.damping);
-      std::vector<double> amplitudes;
-      for (const double place : figure.grid) {
-        amplitudes.push_back(
-            run_until_settled(program_parameters(servo_at(figure, curve, place))).amplitude);
-      }
-      chart.amplitudes.push_back(std::move(amplitudes));
+      chart.amplitudes.push_back(of_each(figure.grid, [&](double place) {
+        return run_until_settled(program_parameters(servo_at(figure, curve, place))).amplitude;
+      }));
     }
     charts.push_back(std::move(chart));
   }
@@ -39,8 +37,8 @@ std::vector<DesignChart1960> make_charts() {
 /// Makima interpolation resembles a French curve and does not overshoot.
 double read_curve(const std::vector<double>& inertia_ratios, std::vector<double> amplitudes,
                   double inertia_ratio) {
-  std::vector<double> places;
-  for (const double ratio : inertia_ratios) places.push_back(std::log(ratio));
+  std::vector<double> places =
+      of_each(inertia_ratios, [](double ratio) { return std::log(ratio); });
   const double place = std::clamp(std::log(inertia_ratio), places.front(), places.back());
   return std::max(0.0, boost::math::interpolators::makima<std::vector<double>>(
                            std::move(places), std::move(amplitudes))(place));
@@ -77,11 +75,10 @@ ChartReading read_chart(const NormalizedServo& servo) {
   require_none(check.faults());
 
   ChartReading reading;
-  reading.chart = &*std::min_element(charts.begin(), charts.end(),
-                                     [&](const DesignChart1960& one, const DesignChart1960& other) {
-                                       return std::abs(one.friction_ratio - servo.friction_ratio) <
-                                              std::abs(other.friction_ratio - servo.friction_ratio);
-                                     });
+  const auto distance = [&](const DesignChart1960& chart) {
+    return std::abs(chart.friction_ratio - servo.friction_ratio);
+  };
+  reading.chart = &*std::min_element(charts.begin(), charts.end(), by(distance));
   const DesignChart1960& chart = *reading.chart;
   std::size_t below = 0;
   while (below + 2 < chart.dampings.size() && servo.damping > chart.dampings[below + 1]) ++below;
@@ -109,10 +106,9 @@ std::optional<ReadingError> reading_error(const NormalizedServo& servo,
   std::array<double, 2> at_ratio{};
   std::array<double, 2> through_points{};
   for (std::size_t i = 0; i < 2; ++i) {
-    std::vector<double> amplitudes;
-    for (const double ratio : reading.chart->inertia_ratios) {
-      amplitudes.push_back(amplitude_at(reading.neighbours[i], ratio));
-    }
+    std::vector<double> amplitudes = of_each(reading.chart->inertia_ratios, [&](double ratio) {
+      return amplitude_at(reading.neighbours[i], ratio);
+    });
     at_ratio[i] = amplitude_at(reading.neighbours[i], servo.inertia_ratio);
     through_points[i] =
         read_curve(reading.chart->inertia_ratios, std::move(amplitudes), servo.inertia_ratio);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/lists.hpp"
 #include "base/special_numbers.hpp"
 #include "gearlash/grid.hpp"
 #include "thesis/exact_curve.hpp"
@@ -63,18 +64,16 @@ Extension zero_friction_and_inertia() {
           "at 0.04, which the thesis took for it. A side without inertia takes no energy at the "
           "impact; the servo hunts all the same. As the friction moves to the load the swing of a "
           "motor without inertia vanishes, that of a load without inertia grows."};
-  std::vector<NamedCurve> curves;
   const std::vector<std::pair<std::string, double>> ratios = {{"massless load", 0.0},
                                                               {"J_L/J_M 1/4", 0.25},
                                                               {"J_L/J_M 1", 1.0},
                                                               {"J_L/J_M 4", 4.0},
                                                               {"massless motor", infinity}};
-  for (const auto& [name, ratio] : ratios) {
-    curves.push_back(named_curve(name, linear("friction ratio", 0.0, 1.0, 201).values,
-                                 [ratio = ratio](double friction_ratio) {
-                                   return charted_servo(0.2, ratio, friction_ratio);
-                                 }));
-  }
+  const std::vector<NamedCurve> curves = of_each(ratios, [](const auto& one) {
+    return named_curve(
+        one.first, linear("friction ratio", 0.0, 1.0, 201).values,
+        [&](double friction_ratio) { return charted_servo(0.2, one.second, friction_ratio); });
+  });
   result.plot = plot_over(
       {.name = "friction ratio, load friction to total friction", .low = 0.0, .high = 1.0},
       "Recommendation 2: zero friction and zero inertia", "damping 0.2, backlash 0.3", curves, "",

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/lists.hpp"
 #include "base/progress_part.hpp"
 #include "base/special_numbers.hpp"
 #include "gearlash/grid.hpp"
@@ -36,11 +37,9 @@ std::vector<FigureCurve> by_damping(double inertia_ratio, double friction_ratio)
 
 std::vector<FigureCurve> by_inertia_ratio(const std::vector<double>& ratios,
                                           double friction_ratio) {
-  std::vector<FigureCurve> curves;
-  for (const double ratio : ratios) {
-    curves.push_back({"J_L/J_M " + ratio_text(ratio), charted_servo(0.1, ratio, friction_ratio)});
-  }
-  return curves;
+  return of_each(ratios, [&](double ratio) {
+    return FigureCurve{"J_L/J_M " + ratio_text(ratio), charted_servo(0.1, ratio, friction_ratio)};
+  });
 }
 
 Figure design_chart(int number, double friction_ratio) {
@@ -233,9 +232,8 @@ Plot plot_of(const Figure& figure, Progress& progress) {
     ProgressPart part(progress, curves.size(), figure.curves.size());
     if (!part.go_on(0.0)) break;
     NamedCurve curve = work_out(figure, one, part);
-    const bool hunts = std::any_of(curve.line.begin(), curve.line.end(), [](const MapPoint& point) {
-      return point.x > 0.0 && !std::isnan(point.y);
-    });
+    const bool hunts = any_of(
+        curve.line, [](const MapPoint& point) { return point.x > 0.0 && !std::isnan(point.y); });
     if (!hunts) {
       curve.name += ": rests";
       curve.line.clear();
@@ -254,9 +252,8 @@ Plot plot_of(const Figure& figure, Progress& progress) {
 }
 
 std::vector<int> figure_numbers() {
-  std::vector<int> numbers;
-  for (const Figure& figure : thesis_figures()) numbers.push_back(figure.number);
-  for (const PhaseFigure& figure : thesis_phase_figures()) numbers.push_back(figure.number);
+  std::vector<int> numbers = of_each(thesis_figures(), &Figure::number);
+  add_all(numbers, of_each(thesis_phase_figures(), &PhaseFigure::number));
   return numbers;
 }
 

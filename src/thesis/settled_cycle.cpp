@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "base/lists.hpp"
 #include "thesis/thesis_machine.hpp"
 
 namespace gearlash::thesis {
@@ -71,9 +72,8 @@ bool has_settled(const std::vector<Cycle>& cycles) {
 
 void describe(const std::vector<Cycle>& cycles, SettledCycle& result) {
   const std::size_t from = cycles.size() - window;
-  const auto [smallest, largest] =
-      std::minmax_element(cycles.begin() + static_cast<std::ptrdiff_t>(from), cycles.end(),
-                          [](const Cycle& a, const Cycle& b) { return a.amplitude < b.amplitude; });
+  const auto [smallest, largest] = std::minmax_element(
+      cycles.begin() + static_cast<std::ptrdiff_t>(from), cycles.end(), by(&Cycle::amplitude));
   result.amplitude = mean_amplitude(cycles, from);
   result.smallest = smallest->amplitude;
   result.largest = largest->amplitude;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/lists.hpp"
 #include "drive_reply.hpp"
 #include "gearlash/design.hpp"
 #include "grid_reply.hpp"
@@ -34,13 +35,11 @@ const char* name_of(Means means) {
 namespace {
 
 std::vector<ShownFault> shown(const std::vector<Fault>& faults) {
-  std::vector<ShownFault> all;
-  for (const Fault& fault : faults) {
+  return of_each(faults, [](const Fault& fault) {
     const std::string plain = fault.path.substr(0, fault.path.find('['));
-    all.push_back(
-        {fault.path, find_parameter(plain) != nullptr, fault.value, fault.permitted, fault.where});
-  }
-  return all;
+    return ShownFault{fault.path, find_parameter(plain) != nullptr, fault.value, fault.permitted,
+                      fault.where};
+  });
 }
 
 /// With its points beside it.
@@ -66,19 +65,19 @@ MarginText text_of(const ParameterMargin& margin, const WrittenDrive& written,
       .searched = words.of(margin.searched.low) + " to " + words.of(margin.searched.high)};
   if (margin.below) text.below = words.at_most(*margin.below);
   if (margin.above) text.above = words.at_least(*margin.above);
-  for (const double choice : margin.choices) text.choices.push_back(words.of(choice));
+  text.choices = of_each(margin.choices, [&](double choice) { return words.of(choice); });
   return text;
 }
 
 MarginsReply reply_of(const HuntingMargin& margin, const DriveText& text,
                       const WrittenDrive& written) {
   const ShownUnits units(text, written);
-  MarginsReply reply{
-      .hunts = margin.hunts, .is_known = margin.is_known, .is_complete = !margin.stopped};
-  for (const ParameterMargin& one : margin.parameters) {
-    reply.texts.push_back(text_of(one, written, units));
-  }
-  return reply;
+  return {.hunts = margin.hunts,
+          .is_known = margin.is_known,
+          .is_complete = !margin.stopped,
+          .texts = of_each(margin.parameters, [&](const ParameterMargin& one) {
+            return text_of(one, written, units);
+          })};
 }
 
 }  // namespace
@@ -123,9 +122,9 @@ ShownMotion motion_reply(const std::string& name, const MotionPicture& picture) 
     shown.reason = error.what();
     return shown;
   }
-  for (const MotionEvent& event : motion.events()) {
-    shown.events.push_back({event.time, std::string(event.what), std::string(event.mode_after)});
-  }
+  shown.events = of_each(motion.events(), [](const MotionEvent& event) {
+    return ShownEvent{event.time, std::string(event.what), std::string(event.mode_after)};
+  });
   return shown;
 }
 
@@ -229,13 +228,11 @@ class Core::Session {
 
   static MarginsReply margins(const Json& request, const DriveText& text,
                               const WrittenDrive& written, Progress& progress) {
-    std::vector<Axis> axes;
-    for (const Json& path : request.value("parameters", Json::array())) {
-      axes.push_back(read_axis_to_search("parameters", path.get<std::string>(), written.drive));
-    }
-    const HuntingMargin margin = axes.empty() ? gearlash::margins(written.drive, progress)
-                                              : gearlash::margins(written.drive, axes, progress);
-    return reply_of(margin, text, written);
+    const std::vector<Axis> axes =
+        of_each(request.value("parameters", Json::array()), [&](const Json& path) {
+          return read_axis_to_search("parameters", path.get<std::string>(), written.drive);
+        });
+    return reply_of(gearlash::margins(written.drive, axes, progress), text, written);
   }
 
   static Plot thesis_figure(int number, Progress& progress) {

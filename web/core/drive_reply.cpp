@@ -62,11 +62,11 @@ ShownUnit ShownUnits::of(const Parameter& parameter) const {
 }
 
 DriveText drive_text_of(const Json& json) {
-  DriveText text{.toml = json.at("toml"), .name = json.value("name", "drive.toml"), .settings = {}};
-  for (const Json& setting : json.value("settings", Json::array())) {
-    text.settings.push_back({.path = setting.at(0), .text = setting.at(1)});
-  }
-  return text;
+  return {.toml = json.at("toml"),
+          .name = json.value("name", "drive.toml"),
+          .settings = of_each(json.value("settings", Json::array()), [](const Json& setting) {
+            return Setting{.path = setting.at(0), .text = setting.at(1)};
+          })};
 }
 
 WrittenDrive parse(const DriveText& text, const std::string& folder) {

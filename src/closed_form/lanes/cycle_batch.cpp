@@ -57,30 +57,10 @@ void write_row(const CycleColumns& cycles, std::size_t row, Verdict verdict, dou
     if (!cycles[quantity].empty()) cycles[quantity][row] = value;
   };
   write(Quantity::growth_at_rest, growth_at_rest);
-  write(Quantity::amplitude, cycle.amplitude);
-  write(Quantity::motor_amplitude, cycle.motor_amplitude);
-  write(Quantity::period, cycle.period);
-  write(Quantity::frequency, 1.0 / cycle.period);
-  write(Quantity::multiplier, cycle.multiplier);
-  write(Quantity::impact_speed, cycle.impact_speed);
-  write(Quantity::mesh_torque, cycle.mesh_torque);
-  write(Quantity::engaged_time, cycle.engaged_time);
-  write(Quantity::separated_time, cycle.separated_time);
-  write(Quantity::motor_friction_loss, cycle.energy.motor_friction);
-  write(Quantity::load_friction_loss, cycle.energy.load_friction);
-  write(Quantity::impact_loss, cycle.energy.impacts);
-  write(Quantity::residual, cycle.residual);
+  for (const CycleQuantity& one : cycle_quantities) write(one.quantity, one.of(cycle));
 }
 
-/// The kernel's properties, in its order.
-constexpr std::array properties = {
-    Quantity::amplitude,          Quantity::motor_amplitude, Quantity::period,
-    Quantity::multiplier,         Quantity::impact_speed,    Quantity::mesh_torque,
-    Quantity::engaged_time,       Quantity::separated_time,  Quantity::motor_friction_loss,
-    Quantity::load_friction_loss, Quantity::impact_loss,     Quantity::residual};
-static_assert(properties.size() == CycleBlock::property_count);
-constexpr std::size_t period_in_block = 2;
-static_assert(properties[period_in_block] == Quantity::period);
+static_assert(std::size(cycle_quantities) == CycleBlock::property_count);
 
 /// Writes the rows of the block, including uncertain ones, which are solved again later.
 void write_from_block(const CycleColumns& cycles, std::size_t begin, const CycleBlock& block,
@@ -94,12 +74,8 @@ void write_from_block(const CycleColumns& cycles, std::size_t begin, const Cycle
     std::copy_n(from, rows, to.begin() + static_cast<std::ptrdiff_t>(begin));
   };
   copy(block.growth_at_rest, cycles[Quantity::growth_at_rest]);
-  for (std::size_t i = 0; i < properties.size(); ++i) {
-    copy(block.properties[i], cycles[properties[i]]);
-  }
-  const std::span<double> frequency = cycles[Quantity::frequency];
-  for (std::size_t row = 0; row < (frequency.empty() ? 0 : rows); ++row) {
-    frequency[begin + row] = 1.0 / block.properties[period_in_block][row];
+  for (std::size_t i = 0; i < CycleBlock::property_count; ++i) {
+    copy(block.properties[i], cycles[cycle_quantities[i].quantity]);
   }
 }
 

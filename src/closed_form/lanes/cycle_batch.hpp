@@ -29,15 +29,36 @@ VectorUnit widest_vector_unit();
 /// "baseline", "avx2", "avx512".
 const char* name_of(VectorUnit unit);
 
+/// A quantity of cycles that has a closed form.
+struct CycleQuantity {
+  Quantity quantity = Quantity::amplitude;
+  double (*of)(const LimitCycle& cycle) = nullptr;
+};
+
+/// All of them, in the order of the kernels' columns.
+inline constexpr CycleQuantity cycle_quantities[] = {
+    {Quantity::amplitude, [](const LimitCycle& cycle) { return cycle.amplitude; }},
+    {Quantity::motor_amplitude, [](const LimitCycle& cycle) { return cycle.motor_amplitude; }},
+    {Quantity::period, [](const LimitCycle& cycle) { return cycle.period; }},
+    {Quantity::frequency, [](const LimitCycle& cycle) { return 1.0 / cycle.period; }},
+    {Quantity::multiplier, [](const LimitCycle& cycle) { return cycle.multiplier; }},
+    {Quantity::impact_speed, [](const LimitCycle& cycle) { return cycle.impact_speed; }},
+    {Quantity::mesh_torque, [](const LimitCycle& cycle) { return cycle.mesh_torque; }},
+    {Quantity::engaged_time, [](const LimitCycle& cycle) { return cycle.engaged_time; }},
+    {Quantity::separated_time, [](const LimitCycle& cycle) { return cycle.separated_time; }},
+    {Quantity::motor_friction_loss,
+     [](const LimitCycle& cycle) { return cycle.energy.motor_friction; }},
+    {Quantity::load_friction_loss,
+     [](const LimitCycle& cycle) { return cycle.energy.load_friction; }},
+    {Quantity::impact_loss, [](const LimitCycle& cycle) { return cycle.energy.impacts; }},
+    {Quantity::residual, [](const LimitCycle& cycle) { return cycle.residual; }}};
+
 /// The quantities of a servo that have a closed form, beside its verdict.
-inline constexpr std::array solved_quantities = {
-    Quantity::growth_at_rest,      Quantity::amplitude,
-    Quantity::motor_amplitude,     Quantity::period,
-    Quantity::frequency,           Quantity::multiplier,
-    Quantity::impact_speed,        Quantity::mesh_torque,
-    Quantity::engaged_time,        Quantity::separated_time,
-    Quantity::motor_friction_loss, Quantity::load_friction_loss,
-    Quantity::impact_loss,         Quantity::residual};
+inline constexpr auto solved_quantities = [] {
+  std::array<Quantity, std::size(cycle_quantities) + 1> all{Quantity::growth_at_rest};
+  for (std::size_t i = 1; i < all.size(); ++i) all[i] = cycle_quantities[i - 1].quantity;
+  return all;
+}();
 
 /// Columns for the answers. Each has one row for each servo; a column that is left out is empty.
 /// Numbers are those of the normal form, in SI (ω_n = 1 rad/s, K = 1 N m/rad). A servo that cannot

@@ -21,10 +21,8 @@ struct CycleBlock {
 
   alignas(64) Column outcome;  ///< of the values below
   alignas(64) Column growth_at_rest;
-  /// Amplitude, motor's amplitude, period, multiplier, impact speed, mesh torque, engaged and
-  /// separated time, the losses in the motor's friction, the load's and at impacts, and residual;
-  /// NaN if there is no cycle.
-  static constexpr std::size_t property_count = 12;
+  /// As cycle_quantities; NaN if there is no cycle.
+  static constexpr std::size_t property_count = 13;
   alignas(64) Column properties[property_count];
 
   static constexpr double uncertain = 0.0;  ///< to be solved one by one

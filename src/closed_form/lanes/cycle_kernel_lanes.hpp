@@ -444,9 +444,11 @@ class CycleLanes {
     certain = certain && half_.engaged_time > Real(0.0);
 
     select(certain, Real(CycleBlock::hunts), failed).store_aligned(block.outcome + row);
+    const Real period = 2.0 * half_.engaged_time + 2.0 * half_.flight_time;
     const Real values[] = {amplitude * unit_amplitude,
                            amplitude * unit_motor_amplitude,
-                           2.0 * half_.engaged_time + 2.0 * half_.flight_time,
+                           period,
+                           1.0 / period,
                            slope * slope,
                            -amplitude * half_.gap_speed,
                            amplitude * largest_mesh_torque(),

@@ -1,8 +1,9 @@
 #include "general/assemble/moving_frame.hpp"
 
-#include <algorithm>
 #include <limits>
 #include <utility>
+
+#include "base/lists.hpp"
 
 namespace gearlash::drive {
 namespace {
@@ -75,9 +76,9 @@ bool is_unseen(const AffineForm& form, const Vector& way) {
 }
 
 bool is_unseen(const std::vector<hybrid::Alternative>& alternatives, const Vector& way) {
-  return std::all_of(alternatives.begin(), alternatives.end(), [&](const auto& alternative) {
-    return std::all_of(alternative.positive.begin(), alternative.positive.end(),
-                       [&](const AffineForm& form) { return is_unseen(form, way); });
+  return all_of(alternatives, [&](const auto& alternative) {
+    return all_of(alternative.positive,
+                  [&](const AffineForm& form) { return is_unseen(form, way); });
   });
 }
 

@@ -1,7 +1,7 @@
 // Rigid faces: impacts, common motion, and parting.
-#include <algorithm>
 #include <utility>
 
+#include "base/lists.hpp"
 #include "general/assemble/automata.hpp"
 
 namespace gearlash::drive {
@@ -62,14 +62,11 @@ std::vector<hybrid::Alternative> ways_after(const DriveForms& forms, const Drive
       mode.load = load.state;
       if (!forms.modes().has(mode)) continue;
       hybrid::Alternative alternative{motor.conditions, forms.modes().index_of(mode)};
-      alternative.positive.insert(alternative.positive.end(), load.conditions.begin(),
-                                  load.conditions.end());
+      add_all(alternative.positive, load.conditions);
       alternatives.push_back(std::move(alternative));
     }
   }
-  std::stable_sort(alternatives.begin(), alternatives.end(), [](const auto& a, const auto& b) {
-    return a.positive.size() > b.positive.size();
-  });
+  sort_by(alternatives, [](const auto& one) { return -std::ssize(one.positive); });
   return alternatives;
 }
 

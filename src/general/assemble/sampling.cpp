@@ -1,9 +1,9 @@
 // A sampled controller.
-#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include "base/lists.hpp"
 #include "general/assemble/automata.hpp"
 
 namespace gearlash::drive {
@@ -42,9 +42,7 @@ hybrid::TimedTransition tick(const DriveForms& forms, const char* name, std::siz
     ways = std::move(next);
   }
   // The last way, with all torques within their limits, has no conditions: it is the target.
-  std::stable_sort(ways.begin(), ways.end(), [](const Way& a, const Way& b) {
-    return a.conditions.size() > b.conditions.size();
-  });
+  sort_by(ways, [](const Way& way) { return -std::ssize(way.conditions); });
   hybrid::TimedTransition result;
   result.name = name;
   result.clock = clock;

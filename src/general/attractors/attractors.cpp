@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
+#include "base/lists.hpp"
 #include "general/attractors/cycle_closing.hpp"
 #include "general/attractors/found_cycle.hpp"
 #include "general/attractors/irregular_motion.hpp"
@@ -219,9 +219,9 @@ class Search {
       Verdict& verdict = verdicts_[i];
       if (verdict.end != MotionEnd::irregular) continue;
       const IrregularFound& motion = verdict.irregular;
-      const bool may_end = std::any_of(
-          result_.cycles.begin(), result_.cycles.end(),
-          [&](const FoundCycle& cycle) { return may_join(motion, cycle, tolerances_.irregular); });
+      const bool may_end = any_of(result_.cycles, [&](const FoundCycle& cycle) {
+        return may_join(motion, cycle, tolerances_.irregular);
+      });
       if (!may_end || place_among(lasting, motion, tolerances_.irregular) < lasting.size()) {
         continue;
       }
@@ -268,11 +268,8 @@ class Search {
   /// Sorts motions in which starts end by a rising key; gives the new place of each.
   template <class Found, class Key>
   std::vector<std::size_t> sort(std::vector<Found>& motions, MotionEnd end, const Key& key) {
-    std::vector<std::size_t> order(motions.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return key(motions[a]) < key(motions[b]);
-    });
+    std::vector<std::size_t> order = indices(motions.size());
+    sort_by(order, [&](std::size_t i) { return key(motions[i]); });
     std::vector<Found> sorted;
     std::vector<std::size_t> place(order.size());
     for (const std::size_t i : order) {
@@ -363,9 +360,7 @@ class Search {
 }  // namespace
 
 std::size_t AttractorSearch::count(MotionEnd end) const {
-  return static_cast<std::size_t>(
-      std::count_if(outcomes.begin(), outcomes.end(),
-                    [&](const Outcome& outcome) { return outcome.end == end; }));
+  return count_of(outcomes, [&](const Outcome& outcome) { return outcome.end == end; });
 }
 
 AttractorSearch find_attractors(const ReducedDrive& drive, const AttractorOptions& options,

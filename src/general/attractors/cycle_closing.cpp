@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/lists.hpp"
 #include "general/attractors/found_cycle.hpp"
 
 namespace gearlash::drive {
@@ -50,10 +51,9 @@ std::optional<PeriodicOrbit> CycleClosing::closed(const Trajectory& motion, doub
 bool CycleClosing::may_go_round(const PeriodicOrbit& orbit, int times) const {
   const double round = orbit.period / times;
   for (int i = 0; i < times; ++i) {
-    const bool has_event =
-        std::any_of(orbit.events.begin(), orbit.events.end(), [&](const hybrid::Event& event) {
-          return event.time > i * round && event.time <= (i + 1) * round;
-        });
+    const bool has_event = any_of(orbit.events, [&](const hybrid::Event& event) {
+      return event.time > i * round && event.time <= (i + 1) * round;
+    });
     if (!has_event) return false;
   }
   if (!setting_.drive.sampling) return true;

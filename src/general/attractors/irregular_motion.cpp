@@ -61,20 +61,15 @@ bool is_steady(const std::vector<Sample>& samples, const std::vector<Sample>& tu
 }
 
 Spread spread_of_periods(const std::vector<double>& passings) {
-  std::vector<double> periods;
-  for (std::size_t i = 0; i + 1 < passings.size(); ++i) {
-    periods.push_back(passings[i + 1] - passings[i]);
-  }
-  return spread_of(periods);
+  return spread_of(of_neighbors(passings, [](double one, double next) { return next - one; }));
 }
 
 /// Of the middles of swings.
 double mean_middle(const std::vector<Sample>& turns) {
-  std::vector<double> middles;
-  for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
-    middles.push_back(0.5 * (turns[i].value + turns[i + 1].value));
-  }
-  return spread_of(middles).mean;
+  const auto middle = [](const Sample& one, const Sample& next) {
+    return 0.5 * (one.value + next.value);
+  };
+  return spread_of(of_neighbors(turns, middle)).mean;
 }
 
 Spread spread_of_half_swings(const std::vector<Sample>& turns) {
@@ -117,7 +112,7 @@ Irregularity irregularity_of(const Watch& watch, const Stretch& stretch,
   found.motor_amplitude = 0.5 * extent_of(of_motor).width();
   found.center = range.middle();
   found.mean_center = found.is_motor_alone ? found.center : mean_middle(turns);
-  found.watched = stretch.to - from;
+  found.watched = stretch.time - from;
   const double middle = extent_of(last).middle();
   const Spread period = spread_of_periods(
       stretch.motion ? upward_passings(*stretch.motion, watched, last, middle, from)
@@ -297,7 +292,7 @@ bool is_same_course(const Course& one, const Course& other, const IrregularFound
 bool repeats_course(const Watch& watch, const Stretch& stretch, const IrregularFound& found,
                     const SearchSetting& setting, const IrregularTolerances& tolerances) {
   const auto [first, last] =
-      ranges_about(0.5 * (stretch.from + stretch.to), after(watch.load, stretch.from));
+      ranges_about(0.5 * (stretch.from + stretch.time), after(watch.load, stretch.from));
   const double apart = tolerances.steady_statistics * std::max(first.width(), last.width());
   return agree(first.low, last.low, 1.0, apart) && agree(first.high, last.high, 1.0, apart) &&
          is_same_course(stretch.course, stretch.course_before, found, setting, tolerances);
@@ -332,7 +327,7 @@ bool stands_while_driven(const Watch& watch, const Stretch& stretch, const Searc
                          const SearchTolerances& tolerances) {
   constexpr double enough = 3.0;
   const double period = setting.longest_sine;
-  if (period == 0.0 || stretch.to - stretch.from < enough * period) return false;
+  if (period == 0.0 || stretch.time - stretch.from < enough * period) return false;
   const double no_move = tolerances.rest.no_move * setting.small_length;
   const auto stands = [&](const std::vector<Sample>& samples) {
     return extent_of(after(samples, stretch.from)).width() <= no_move;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hybrid/disturbances.hpp"
+#include "hybrid/turns.hpp"
 #include "numeric/linear_algebra.hpp"
 #include "numeric/zero_between.hpp"
 
@@ -22,76 +23,36 @@ using hybrid::Vector;
 
 constexpr unsigned bits_of_time = 40;
 
-/// See with_turns(). speed_in(mode) is the form that changes its sign in a mode.
-template <class Speed>
-HybridSystem with_turns_of(const HybridSystem& system, const Speed& speed_in, OtherEvents others) {
-  const bool are_kept = others == OtherEvents::kept;
-  HybridSystem result = are_kept ? system : HybridSystem{.state_names = system.state_names};
-  result.modes.clear();
-  result.source =
-      hybrid::ModeSource(system.mode_count(), [system, speed_in, are_kept](std::size_t index) {
-        hybrid::AffineMode mode = system.mode(index);
-        hybrid::AffineForm speed = speed_in(index, mode);
-        if (!are_kept) mode = {.flow = std::move(mode.flow)};
-        mode.transitions.push_back({.name = "turns",
-                                    .guard = std::move(speed),
-                                    .direction = hybrid::Direction::either,
-                                    .target = index});
-        return mode;
-      });
-  return result;
-}
-
 }  // namespace
 
-HybridSystem with_turns(const HybridSystem& system, const hybrid::AffineForm& speed,
-                        OtherEvents others) {
-  return with_turns_of(
-      system, [speed](std::size_t, const hybrid::AffineMode&) { return speed; }, others);
-}
-
 Watched watched(const HybridSystem& system, hybrid::AffineForm value, hybrid::AffineForm speed) {
-  hybrid::PreparedSystem turns(with_turns(system, speed, OtherEvents::left_out));
+  hybrid::PreparedSystem turns(with_turns(system, speed, hybrid::OtherEvents::left_out));
   return {std::move(value), std::move(speed), std::move(turns)};
 }
 
 double largest_size(const Trajectory& motion, const HybridSystem& system,
                     const std::function<std::optional<hybrid::AffineForm>(std::size_t)>& form_of) {
-  // Its rate of change along the flow; modes without a form are not entered.
+  // Modes without a form are not entered.
   const auto rate = [form_of](std::size_t index, const hybrid::AffineMode& mode) {
-    const hybrid::AffineForm form = form_of(index).value();
-    return hybrid::AffineForm{mode.flow.matrix.transpose() * form.normal,
-                              form.normal.dot(mode.flow.offset)};
+    return rate_of(form_of(index).value(), mode.flow);
   };
-  const hybrid::PreparedSystem turns(with_turns_of(system, rate, OtherEvents::left_out));
+  const hybrid::PreparedSystem turns(with_turns(system, rate, hybrid::OtherEvents::left_out));
   double largest = 0.0;
-  for_each_stretch(motion, [&](const State& start, double from, double to, const Vector& end) {
-    const std::optional<hybrid::AffineForm> form = form_of(start.mode);
-    if (!form) return;
-    const auto include = [&](const Vector& numbers) {
-      largest = std::max(largest, std::abs(form->at(numbers)));
-    };
-    include(start.numbers);
-    include(end);
-    if (!(to > from)) return;
-    const Trajectory stretch = simulate(turns, start, {.until = to - from});
-    for (const Event& event : stretch.events()) include(event.before);
-  });
+  for_each_turn(
+      motion, turns, [&](std::size_t mode) { return form_of(mode).has_value(); },
+      [&](double, std::size_t mode, const Vector& numbers) {
+        largest = std::max(largest, std::abs(form_of(mode)->at(numbers)));
+      });
   return largest;
 }
 
 std::vector<Sample> samples(const Trajectory& motion, const Watched& watched) {
   std::vector<Sample> result;
-  for_each_stretch(motion, [&](const State& start, double from, double to, const Vector& end) {
-    result.push_back({from, watched.value.at(start.numbers)});
-    if (to > from) {
-      const Trajectory stretch = simulate(watched.turns, start, {.until = to - from});
-      for (const Event& event : stretch.events()) {
-        result.push_back({from + event.time, watched.value.at(event.before)});
-      }
-    }
-    result.push_back({to, watched.value.at(end)});
-  });
+  for_each_turn(
+      motion, watched.turns, [](std::size_t) { return true; },
+      [&](double time, std::size_t, const Vector& numbers) {
+        result.push_back({time, watched.value.at(numbers)});
+      });
   return result;
 }
 

@@ -19,12 +19,6 @@ struct Watched {
   hybrid::PreparedSystem turns;
 };
 
-enum class OtherEvents { kept, left_out };
-
-/// The system with events where a form changes its sign.
-hybrid::HybridSystem with_turns(const hybrid::HybridSystem& system, const hybrid::AffineForm& speed,
-                                OtherEvents others);
-
 Watched watched(const hybrid::HybridSystem& system, hybrid::AffineForm value,
                 hybrid::AffineForm speed);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/lists.hpp"
 #include "base/special_numbers.hpp"
 #include "hybrid/guard_form.hpp"
 
@@ -189,8 +190,16 @@ class StretchObserver : public hybrid::MotionObserver {
   std::vector<hybrid::AffineForm> speeds_;
 };
 
+Stretch begun(Watch& watch) {
+  watch.marks.push_back({watch.time, watch.here});
+  Stretch stretch;
+  stretch.from = watch.time;
+  return stretch;
+}
+
+/// To the end of the stretch.
 void move_on(Watch& watch, const Stretch& stretch) {
-  watch.time = stretch.to;
+  watch.time = stretch.time;
   watch.events += stretch.events;
   watch.here = stretch.end;
 }
@@ -213,8 +222,7 @@ double busy_time(const std::vector<Sample>& load, const std::vector<Sample>& mot
 
 Stretch follow(Watch& watch, double until, std::size_t step_limit, std::size_t event_limit,
                const SearchSetting& setting, const SearchBudget& budget) {
-  Stretch stretch{.from = watch.time};
-  watch.marks.push_back({watch.time, watch.here});
+  Stretch stretch = begun(watch);
   stretch.motion = simulate(setting.system, watch.here,
                             {.from = watch.time,
                              .until = until,
@@ -222,37 +230,28 @@ Stretch follow(Watch& watch, double until, std::size_t step_limit, std::size_t e
                              .step_limit = step_limit,
                              .progress = watch.progress});
   const hybrid::Trajectory& motion = *stretch.motion;
-  stretch.to = motion.end_time();
-  stretch.end = motion.end();
-  stretch.stop_reason = motion.stop_reason();
-  stretch.culprit = motion.culprit();
-  stretch.events = motion.events().size();
+  static_cast<hybrid::Observed&>(stretch) = {motion.end_time(), motion.end(), motion.stop_reason(),
+                                             motion.culprit(), motion.events().size()};
   const std::vector<Extent> all = extents(motion, motion.start_time());
   if (watch.all.empty()) watch.all = all;
   for (std::size_t i = 0; i < all.size(); ++i) watch.all[i].include(all[i]);
   stretch.last = extents(motion, 0.5 * (motion.start_time() + motion.end_time()));
   const std::vector<Sample> load = rough_samples(motion, setting.load);
   const std::vector<Sample> motor = rough_samples(motion, setting.motor);
-  watch.load.insert(watch.load.end(), load.begin(), load.end());
-  watch.motor.insert(watch.motor.end(), motor.begin(), motor.end());
+  add_all(watch.load, load);
+  add_all(watch.motor, motor);
   watch.busy += busy_time(load, motor, budget.counted_between_events * setting.swing_time);
   move_on(watch, stretch);
   return stretch;
 }
 
 Stretch observe(Watch& watch, double until, std::size_t event_limit, const SearchSetting& setting) {
-  Stretch stretch{.from = watch.time};
-  watch.marks.push_back({watch.time, watch.here});
+  Stretch stretch = begun(watch);
   StretchObserver observer(watch, until, setting);
-  hybrid::Observed seen = observe(
+  static_cast<hybrid::Observed&>(stretch) = observe(
       setting.system, watch.here,
       {.from = watch.time, .until = until, .event_limit = event_limit, .progress = watch.progress},
       observer);
-  stretch.to = seen.time;
-  stretch.end = std::move(seen.end);
-  stretch.stop_reason = seen.stop_reason;
-  stretch.culprit = std::move(seen.culprit);
-  stretch.events = seen.events;
   observer.end(watch, stretch);
   move_on(watch, stretch);
   return stretch;
@@ -282,9 +281,8 @@ bool acts(const hybrid::AffineMode& mode, Eigen::Index number) {
   if (number <= load_speed) return true;
   const auto moves = [&](Eigen::Index shaft) { return mode.flow.matrix(shaft, number) != 0.0; };
   return moves(motor_speed) || moves(load_speed) ||
-         std::any_of(
-             mode.transitions.begin(), mode.transitions.end(),
-             [&](const hybrid::Transition& one) { return one.guard.normal[number] != 0.0; });
+         any_of(mode.transitions,
+                [&](const hybrid::Transition& one) { return one.guard.normal[number] != 0.0; });
 }
 
 /// Whether all numbers that act at once change by at most a share of their total movement.
@@ -358,7 +356,7 @@ bool is_far(const Watch& watch, const std::vector<Sample>& turns, const SearchSe
   if (!(away > far_away(setting, tolerances))) return false;
   // Without a way back it is no swing.
   constexpr double beyond = 2.0;
-  const bool swings = std::any_of(turns.begin(), turns.end(), [&](const Sample& turn) {
+  const bool swings = any_of(turns, [&](const Sample& turn) {
     return beyond * std::abs(turn.value) > away && turn.time < watch.time;
   });
   return away > setting.braked_length || !swings;

@@ -48,13 +48,8 @@ struct Course {
 };
 
 /// A stretch of a watched motion.
-struct Stretch {
+struct Stretch : hybrid::Observed {
   double from = 0.0;
-  double to = 0.0;
-  hybrid::State end{};
-  hybrid::StopReason stop_reason = hybrid::StopReason::reached_end;
-  std::string culprit{};
-  std::size_t events = 0;
   std::vector<Extent> last{};  ///< of each number in the last half; empty if it did not get there
   /// Of the last period of a sine, and of the one before; of a motion that was observed.
   Course course{};

@@ -9,6 +9,7 @@
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
 #include "general/assemble/time_scale.hpp"
+#include "hybrid/turns.hpp"
 
 namespace gearlash::drive {
 namespace {
@@ -84,8 +85,8 @@ void look(SearchSetting& setting) {
   };
   setting.load = watched_at(load_position, load_speed);
   setting.motor = watched_at(motor_position, motor_speed);
-  setting.with_turns =
-      hybrid::PreparedSystem(with_turns(system, setting.load.speed, OtherEvents::kept));
+  setting.with_turns = hybrid::PreparedSystem(
+      hybrid::with_turns(system, setting.load.speed, hybrid::OtherEvents::kept));
 }
 
 // ---- lengths ------------------------------------------------------------------------------------

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "base/lists.hpp"
 #include "general/attractors/found_cycle.hpp"
 #include "general/attractors/motion_measures.hpp"
 #include "general/attractors/time_to_rest.hpp"
@@ -74,7 +75,7 @@ Verdict StartClassifier::watched(Watch& watch, double patience, double longer) {
     }
     watch.before = stretch.last;
     // Events may have ended the stretch.
-    length = 2.0 * (stretch.to - stretch.from);
+    length = 2.0 * (stretch.time - stretch.from);
     most_in_stretch = std::max(budget_.ticks_of_stretch, 2 * stretch.events);
   }
 }
@@ -129,7 +130,7 @@ double StartClassifier::longest(const Watch& watch, const Stretch& stretch, doub
       std::max(recent(turns), recent(extremes(watch.motor))) < budget_.hardly_any_swings;
   const bool is_slow = hardly_moves || is_small(turns, setting_, tolerances_.rest) || changes ||
                        !excludes_decay(fastest_decay(after(watch.load, stretch.from)),
-                                       stretch.to - stretch.from, tolerances_.irregular);
+                                       stretch.time - stretch.from, tolerances_.irregular);
   constexpr double rounding = 1e-9;  // allows for rounding of the summed stretches
   const double more = is_slow ? patience : 1.0;
   const double times = setting_.drive.sampling ? more * budget_.patience_if_sampled : more;
@@ -243,10 +244,9 @@ bool StartClassifier::creeps(const std::vector<Standstill>& stood, const Watch& 
 }
 
 const StartClassifier::Known* StartClassifier::known_as(const SteadyMotion& motion) const {
-  const auto known = std::find_if(known_.begin(), known_.end(), [&](const Known& one) {
+  return first_of(known_, [&](const Known& one) {
     return is_same(one.motion, motion, setting_, tolerances_.irregular);
   });
-  return known == known_.end() ? nullptr : &*known;
 }
 
 SteadyMotion StartClassifier::steady(const Watch& watch, const Stretch& stretch,
@@ -258,10 +258,10 @@ SteadyMotion StartClassifier::steady(const Watch& watch, const Stretch& stretch,
 }
 
 bool StartClassifier::joins(const Stretch& stretch, Verdict& verdict) const {
-  const auto known = std::find_if(known_.begin(), known_.end(), [&](const Known& one) {
+  const Known* known = first_of(known_, [&](const Known& one) {
     return runs_along(stretch, one.motion, setting_, tolerances_.irregular);
   });
-  if (known == known_.end()) return false;
+  if (known == nullptr) return false;
   verdict.end = known->end;
   verdict.which = known->which;
   verdict.irregular = known->motion.found;

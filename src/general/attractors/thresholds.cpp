@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "base/lists.hpp"
+
 namespace gearlash::drive {
 namespace {
 
@@ -28,8 +30,7 @@ std::vector<Step> steps_towards(double direction, double reference,
     if (!is_at_rest || !(offset * direction > 0.0)) continue;
     steps.push_back({std::abs(offset), start.motor_position - start.load_position, outcome.end});
   }
-  std::stable_sort(steps.begin(), steps.end(),
-                   [](const Step& one, const Step& other) { return one.size < other.size; });
+  sort_by(steps, &Step::size);
   return steps;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/lists.hpp"
 #include "base/names.hpp"
 
 namespace gearlash {
@@ -23,8 +24,8 @@ const drive::FoundCycle* lost_cycle(const Analysis& here, const Analysis& there)
   for (const drive::FoundCycle& cycle : here.search->cycles) {
     if (cycle.stability == Stability::unstable) continue;
     const auto& others = there.search->cycles;
-    const bool is_there = std::any_of(others.begin(), others.end(),
-                                      [&](const auto& other) { return are_alike(cycle, other); });
+    const bool is_there =
+        any_of(others, [&](const auto& other) { return are_alike(cycle, other); });
     if (is_there) continue;
     if (largest == nullptr || cycle.amplitude > largest->amplitude) largest = &cycle;
   }

@@ -1,10 +1,10 @@
 #include "question/change/derivatives.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
+#include "base/lists.hpp"
 #include "base/progress_part.hpp"
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
@@ -115,11 +115,10 @@ Jacobian without_slopes(std::span<const Quantity> quantities, std::vector<std::s
                         std::vector<double> present, const Answer& answer) {
   Jacobian jacobian{.quantities = {quantities.begin(), quantities.end()},
                     .paths = std::move(paths),
-                    .values = {},
+                    .values = of_each(quantities, [&](Quantity one) { return answer.value(one); }),
                     .present = std::move(present),
                     .slopes = {},
                     .reason = {}};
-  for (const Quantity quantity : quantities) jacobian.values.push_back(answer.value(quantity));
   jacobian.slopes.resize(quantities.size() * jacobian.paths.size());
   return jacobian;
 }
@@ -127,12 +126,9 @@ Jacobian without_slopes(std::span<const Quantity> quantities, std::vector<std::s
 void set_slopes(Jacobian& jacobian, std::size_t parameter, const AnswerAt& answer_at,
                 DifferenceSteps steps) {
   const NumbersAt numbers_at = [&](double value) {
-    const Answer answer = answer_at(value);
-    std::vector<double> numbers;
-    for (const Quantity quantity : jacobian.quantities) {
-      numbers.push_back(answer.value(quantity).value_or(not_a_number));
-    }
-    return numbers;
+    return of_each(jacobian.quantities, [answer = answer_at(value)](Quantity quantity) {
+      return answer.value(quantity).value_or(not_a_number);
+    });
   };
   const double present = jacobian.present[parameter];
   const double amplitude = answer_at(present).value(Quantity::amplitude).value_or(0.0);
@@ -179,21 +175,15 @@ std::optional<double> Jacobian::elasticity(std::size_t quantity, std::size_t par
 }
 
 std::vector<std::optional<double>> Jacobian::elasticities() const {
-  std::vector<std::optional<double>> all;
-  for (std::size_t i = 0; i < slopes.size(); ++i) {
-    all.push_back(elasticity(i / paths.size(), i % paths.size()));
-  }
-  return all;
+  return of_each(indices(slopes.size()),
+                 [&](std::size_t i) { return elasticity(i / paths.size(), i % paths.size()); });
 }
 
 Jacobian derivatives(const Drive& drive, std::span<const Quantity> quantities,
                      std::span<const std::string_view> paths, Progress& progress) {
   RangeCheck check;
   for (const Quantity quantity : quantities) {
-    const auto is_among = [&](const auto& all) {
-      return std::find(all.begin(), all.end(), quantity) != all.end();
-    };
-    if (!is_among(differentiable) && !is_among(differentiable_by_search)) {
+    if (!contains(differentiable, quantity) && !contains(differentiable_by_search, quantity)) {
       check.refuse("quantities", std::string(name_of(quantity)),
                    "must be amplitude, motor_amplitude, center, period, frequency, multiplier or "
                    "growth_at_rest");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/lists.hpp"
 #include "base/progress_part.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
@@ -52,9 +53,7 @@ double log_distance(const ParameterMargin& margin) {
 }
 
 std::vector<double> factors_along(const std::vector<double>& direction, double length) {
-  std::vector<double> factors;
-  for (const double component : direction) factors.push_back(std::exp(length * component));
-  return factors;
+  return of_each(direction, [&](double component) { return std::exp(length * component); });
 }
 
 /// The first length at which the drive starts to hunt, or stops. Empty also where its motion beyond
@@ -66,6 +65,15 @@ std::optional<double> first_border(const FeasibleValues& quiet, bool hunts) {
   const bool is_border =
       first.low == 0.0 && first.high < quiet.searched.high && !is_in(quiet.undecided, first.high);
   return is_border ? std::optional(first.high) : std::nullopt;
+}
+
+std::vector<Axis> usual_axes(const Drive& drive) {
+  std::vector<Axis> axes;
+  for (const std::string& parameter : usual_parameters(drive)) {
+    if (parameter == "contact.restitution" && get(drive, parameter) == 0.0) continue;
+    axes.push_back(axis_to_search(drive, parameter));
+  }
+  return axes;
 }
 
 }  // namespace
@@ -175,18 +183,9 @@ std::optional<double> ParameterMargin::per_cent_above() const {
   return above && present != 0.0 ? std::optional(100.0 * (*above / present - 1.0)) : std::nullopt;
 }
 
-HuntingMargin margins(const Drive& drive, Progress& progress) {
+HuntingMargin margins(const Drive& drive, const std::vector<Axis>& of, Progress& progress) {
   require_none(faults(drive));
-  std::vector<Axis> axes;
-  for (const std::string& parameter : usual_parameters(drive)) {
-    if (parameter == "contact.restitution" && get(drive, parameter) == 0.0) continue;
-    axes.push_back(axis_to_search(drive, parameter));
-  }
-  return margins(drive, axes, progress);
-}
-
-HuntingMargin margins(const Drive& drive, const std::vector<Axis>& axes, Progress& progress) {
-  require_none(faults(drive));
+  const std::vector<Axis> axes = of.empty() ? usual_axes(drive) : of;
   const std::size_t parts = axes.size() + 2;
   HuntingMargin margin;
   ProgressPart first(progress, 0, parts);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/lists.hpp"
 #include "base/range_check.hpp"
 #include "general/attractors/found_cycle.hpp"
 #include "hybrid/disturbances.hpp"
@@ -44,7 +45,7 @@ bool has_multiplier_of_one(const drive::FoundCycle& cycle) {
     return std::abs(multiplier - 1.0) < near;
   };
   const std::vector<std::complex<double>>& all = cycle.orbit.multipliers;
-  return std::any_of(all.begin(), all.end(), is_one);
+  return any_of(all, is_one);
 }
 
 /// Why a cycle has no derivatives; empty if it has.
@@ -55,8 +56,7 @@ std::string obstacle_to_slopes(const drive::SearchSetting& setting,
   if (drive.sensing.reads_steps()) return "the encoder's steps have no derivative";
   if (is_driven(drive)) return "a sine drives it";
   const std::vector<Event>& events = cycle.orbit.events;
-  if (std::any_of(events.begin(), events.end(),
-                  [](const Event& event) { return event.kind == EventKind::settling; })) {
+  if (any_of(events, [](const Event& event) { return event.kind == EventKind::settling; })) {
     return "infinitely many bounces settle in each period";
   }
   constexpr double grazing = 1e-6;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/lists.hpp"
 #include "base/special_numbers.hpp"
 #include "closed_form/growth_at_rest.hpp"
 #include "model/proportional_servo.hpp"
@@ -121,8 +122,7 @@ std::vector<Change> crossings(const LogGrowth& growth) {
     met.push_back(*length * direction);
     nearest = std::min(nearest, *length);
   }
-  std::sort(met.begin(), met.end(),
-            [](const Change& a, const Change& b) { return a.squaredNorm() < b.squaredNorm(); });
+  sort_by(met, [](const Change& change) { return change.squaredNorm(); });
   return met;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "base/lists.hpp"
 #include "base/on_threads.hpp"
 #include "question/change/target.hpp"
 #include "question/change/value_scan.hpp"
@@ -35,11 +36,10 @@ Judged judged(const Drive& drive, std::string_view path, const Bounds& values,
   }
   Answer bounds;
   bounds.ceiling = ceiling_of(std::get<EnclosedDrive>(drives));
-  part.is_proved =
-      std::all_of(target.limits.begin(), target.limits.end(), [&](const QuantityLimit& limit) {
-        const std::optional<double> bound = bounds.value(limit.quantity);
-        return bound && *bound <= limit.permitted.high;
-      });
+  part.is_proved = all_of(target.limits, [&](const QuantityLimit& limit) {
+    const std::optional<double> bound = bounds.value(limit.quantity);
+    return bound && *bound <= limit.permitted.high;
+  });
   return part;
 }
 
@@ -68,9 +68,8 @@ IntervalProof prove_target(const Drive& drive, std::string_view path, const Boun
     if (!progress.go_on(static_cast<double>(proof.evaluations) / static_cast<double>(most_boxes))) {
       break;
     }
-    std::vector<Judged> parts(open.size());
-    on_threads(0, open.size(),
-               [&](std::size_t i) { parts[i] = judged(drive, path, open[i], target); });
+    const std::vector<Judged> parts = of_each_on_threads(
+        open, [&](const Bounds& values) { return judged(drive, path, values, target); });
     proof.evaluations += open.size();
     open.clear();
     for (const Judged& part : parts) {
@@ -87,8 +86,7 @@ IntervalProof prove_target(const Drive& drive, std::string_view path, const Boun
       }
     }
   }
-  std::sort(proof.parts.begin(), proof.parts.end(),
-            [](const Bounds& a, const Bounds& b) { return a.low < b.low; });
+  sort_by(proof.parts, &Bounds::low);
   for (const Bounds& part : std::exchange(proof.parts, {})) add(proof.parts, part);
   if (proof.parts.empty()) proof.reason = "interval bounds of no part of it keep the limit";
   return proof;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/lists.hpp"
 #include "base/range_check.hpp"
 #include "question/analyse.hpp"
 
@@ -17,9 +18,8 @@ Judgement judge(const Bounds& limits, const Bounds& bounds) {
 }
 
 bool has_limits_of(const Target& target, QuantityScope scope) {
-  return std::any_of(target.limits.begin(), target.limits.end(), [&](const QuantityLimit& limit) {
-    return info_of(limit.quantity).scope == scope;
-  });
+  return any_of(target.limits,
+                [&](const QuantityLimit& limit) { return info_of(limit.quantity).scope == scope; });
 }
 
 bool asks_for_motion(const Target& target) { return has_limits_of(target, QuantityScope::motion); }
@@ -173,8 +173,8 @@ bool is_of_boxes(Quantity quantity) {
 }
 
 bool is_of_boxes(const Target& target) {
-  return std::all_of(target.limits.begin(), target.limits.end(),
-                     [](const QuantityLimit& limit) { return is_of_boxes(limit.quantity); });
+  return all_of(target.limits,
+                [](const QuantityLimit& limit) { return is_of_boxes(limit.quantity); });
 }
 
 std::vector<Fault> faults_of_boxes(const Target& target) {
@@ -183,8 +183,7 @@ std::vector<Fault> faults_of_boxes(const Target& target) {
     if (is_of_boxes(limit.quantity)) continue;
     found.push_back({"target", written(limit.quantity),
                      "must be growth-at-rest, amplitude, frequency or period where the closed form "
-                     "answers",
-                     ""});
+                     "answers"});
   }
   return found;
 }
@@ -204,7 +203,7 @@ bool is_missed(const Target& target, const Answer& answer) {
 
 bool is_met(const Target& target, const Answer& answer) {
   if (is_missed(target, answer) || !is_known(target, answer)) return false;
-  return std::all_of(target.limits.begin(), target.limits.end(), [&](const QuantityLimit& limit) {
+  return all_of(target.limits, [&](const QuantityLimit& limit) {
     if (is_idle(answer.verdict, limit.quantity)) return true;
     const std::optional<double> value = answer.value(limit.quantity);
     return value && *value >= limit.permitted.low &&
@@ -252,21 +251,18 @@ Judgement judge(const Target& target, const AnswerBounds& bounds) {
 }
 
 Bounds Target::permitted(Quantity quantity) const {
-  for (const QuantityLimit& limit : limits) {
-    if (limit.quantity == quantity) return limit.permitted;
-  }
-  return {-infinity, infinity};
+  const QuantityLimit* limit =
+      first_of(limits, [&](const QuantityLimit& one) { return one.quantity == quantity; });
+  return limit != nullptr ? limit->permitted : Bounds{-infinity, infinity};
 }
 
 Target& Target::require(Quantity quantity, const Bounds& permitted) {
-  const auto known = std::find_if(limits.begin(), limits.end(), [&](const QuantityLimit& limit) {
-    return limit.quantity == quantity;
-  });
-  if (known == limits.end()) {
-    limits.push_back({quantity, permitted});
-  } else {
+  const auto is_known = [&](const QuantityLimit& limit) { return limit.quantity == quantity; };
+  if (QuantityLimit* known = first_of(limits, is_known)) {
     known->permitted.low = std::max(known->permitted.low, permitted.low);
     known->permitted.high = std::min(known->permitted.high, permitted.high);
+  } else {
+    limits.push_back({quantity, permitted});
   }
   return *this;
 }

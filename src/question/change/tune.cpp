@@ -4,9 +4,9 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
+#include "base/lists.hpp"
 #include "base/on_threads.hpp"
 #include "base/progress_part.hpp"
 #include "base/range_check.hpp"
@@ -66,13 +66,12 @@ bool is_missed_already(const Target& target, const drive::AttractorSearch& searc
             motion.motor_amplitude > most_of_motor);
   };
   if (target.no_runaway && search.count(drive::MotionEnd::diverges) > 0) return true;
-  if (std::any_of(search.cycles.begin(), search.cycles.end(), [&](const auto& cycle) {
+  if (any_of(search.cycles, [&](const auto& cycle) {
         return cycle.stability != Stability::unstable && is_too_much(cycle);
       })) {
     return true;
   }
-  return irregular_counts &&
-         std::any_of(search.irregular.begin(), search.irregular.end(), is_too_much);
+  return irregular_counts && any_of(search.irregular, is_too_much);
 }
 
 /// What a unit's linear loop says before any search.
@@ -173,12 +172,10 @@ class Units {
     const std::vector<std::vector<bool>> corners = corner_sample(width);
     if (all_.size() + corners.size() > most) return;  // the mean one is there
     for (const std::vector<bool>& is_high : corners) {
-      Values values;
-      for (std::size_t i = 0; i < width; ++i) {
+      add(of_each(indices(width), [&](std::size_t i) {
         const Bounds range = three_sigma_range_of(task_.series.varied[i].distribution);
-        values.push_back(is_high[i] ? range.high : range.low);
-      }
-      add(std::move(values));
+        return is_high[i] ? range.high : range.low;
+      }));
     }
   }
 
@@ -197,16 +194,13 @@ struct Trial {
 
   /// The unit that misses the target most; size() where none does.
   std::size_t worst() const {
-    const auto most = std::max_element(
-        units.begin(), units.end(),
-        [](const JudgedUnit& a, const JudgedUnit& b) { return a.missed_by < b.missed_by; });
+    const auto most = std::max_element(units.begin(), units.end(), by(&JudgedUnit::missed_by));
     return most == units.end() || most->missed_by <= 0.0
                ? units.size()
                : static_cast<std::size_t>(most - units.begin());
   }
   std::size_t missed() const {
-    return static_cast<std::size_t>(std::count_if(
-        units.begin(), units.end(), [](const auto& one) { return one.is_tried && !one.is_met; }));
+    return count_of(units, [](const auto& one) { return one.is_tried && !one.is_met; });
   }
 };
 
@@ -247,11 +241,9 @@ class Tuning {
 
  private:
   Values tuned_at(std::span<const double> point) const {
-    Values tuned;
-    for (std::size_t i = 0; i < point.size(); ++i) {
-      tuned.push_back(point[i] == start_[i] ? present_[i] : value_at(task_.tuned[i], point[i]));
-    }
-    return tuned;
+    return of_each(indices(point.size()), [&](std::size_t i) {
+      return point[i] == start_[i] ? present_[i] : value_at(task_.tuned[i], point[i]);
+    });
   }
 
   bool keeps_share(const Trial& trial) const {
@@ -263,20 +255,28 @@ class Tuning {
     return one.met != other.met ? one.met > other.met : units_.is_worse(other.reached, one.reached);
   }
 
+  /// What `make` gives of each unit; nothing of those that a stop leaves out.
+  template <class Make>
+  auto side_by_side(const std::vector<std::size_t>& units, Progress& progress, const Make& make) {
+    SharedProgress shared(progress, units.size());
+    auto found = of_each_on_threads(units, [&](std::size_t unit) {
+      if (shared.is_stopped()) return decltype(make(unit, progress)){};
+      auto one = make(unit, shared);
+      shared.finish(1);
+      return one;
+    });
+    stopped_ = stopped_ || shared.is_stopped();
+    return found;
+  }
+
   /// Judges units with one proposal, side by side.
   std::vector<JudgedUnit> judged(const std::vector<std::size_t>& which, const Values& tuned,
                                  Progress& progress) {
-    std::vector<JudgedUnit> found(which.size());
-    SharedProgress shared(progress, which.size());
-    on_threads(0, which.size(), [&](std::size_t i) {
-      if (shared.is_stopped()) return;
-      found[i] = units_.judged(which[i], tuned, shared);
-      shared.finish(1);
-    });
-    stopped_ = stopped_ || shared.is_stopped();
-    analyses_ += static_cast<std::size_t>(
-        std::count_if(found.begin(), found.end(),
-                      [](const JudgedUnit& one) { return one.missed_by < without_margin; }));
+    std::vector<JudgedUnit> found = side_by_side(
+        which, progress,
+        [&](std::size_t unit, Progress& shared) { return units_.judged(unit, tuned, shared); });
+    analyses_ +=
+        count_of(found, [](const JudgedUnit& one) { return one.missed_by < without_margin; });
     return found;
   }
 
@@ -303,16 +303,14 @@ class Tuning {
       const auto to = from + static_cast<std::ptrdiff_t>(count);
       const std::vector<JudgedUnit> found = judged({from, to}, tuned, progress);
       if (stopped_) return std::nullopt;
-      const auto most =
-          std::max_element(found.begin(), found.end(),
-                           [](const auto& a, const auto& b) { return a.missed_by < b.missed_by; });
+      const auto most = std::max_element(found.begin(), found.end(), by(&JudgedUnit::missed_by));
       if (most->missed_by > 0.0) {
         // It is tried first from now on.
         std::rotate(limiting_.begin(), from + (most - found.begin()),
                     from + (most - found.begin()) + 1);
         return missed + most->missed_by + static_cast<double>(limiting_.size() - first - count);
       }
-      for (const JudgedUnit& one : found) reached.push_back(one.reached);
+      add_all(reached, of_each(found, &JudgedUnit::reached));
     }
     least_permitted_ = std::min(least_permitted_, size_of(reached));
     return size_of(reached);
@@ -373,20 +371,15 @@ class Tuning {
   /// Of all limiting units together; empty where one has no derivatives.
   std::optional<SlopedNumbers> slopes(std::span<const double> point, Progress& progress) {
     const Values tuned = tuned_at(point);
-    std::vector<std::optional<SlopedNumbers>> found(limiting_.size());
-    SharedProgress shared(progress, limiting_.size());
-    on_threads(0, limiting_.size(), [&](std::size_t i) {
-      if (shared.is_stopped()) return;
-      found[i] = slopes_of_unit(units_.drive(limiting_[i], tuned), task_, shared);
-      shared.finish(1);
+    const auto found = side_by_side(limiting_, progress, [&](std::size_t unit, Progress& shared) {
+      return slopes_of_unit(units_.drive(unit, tuned), task_, shared);
     });
-    stopped_ = stopped_ || shared.is_stopped();
     analyses_ += found.size();
     SlopedNumbers all;
     for (const std::optional<SlopedNumbers>& one : found) {
       if (!one) return std::nullopt;
-      all.sizes.insert(all.sizes.end(), one->sizes.begin(), one->sizes.end());
-      all.limited.insert(all.limited.end(), one->limited.begin(), one->limited.end());
+      add_all(all.sizes, one->sizes);
+      add_all(all.limited, one->limited);
     }
     return all;
   }
@@ -426,16 +419,13 @@ class Tuning {
 
   /// Adds the units that miss the target most; false where there is none that is new.
   bool add_limiting(const Trial& trial) {
-    std::vector<std::size_t> missed;
-    for (std::size_t unit = 0; unit < trial.units.size(); ++unit) {
-      const bool is_known = std::find(limiting_.begin(), limiting_.end(), unit) != limiting_.end();
-      if (trial.units[unit].missed_by > 0.0 && !is_known) missed.push_back(unit);
-    }
-    std::stable_sort(missed.begin(), missed.end(), [&](std::size_t a, std::size_t b) {
-      return trial.units[a].missed_by > trial.units[b].missed_by;
+    const auto missed_by = [&](std::size_t unit) { return trial.units[unit].missed_by; };
+    std::vector<std::size_t> missed = those_of(indices(trial.units.size()), [&](std::size_t unit) {
+      return missed_by(unit) > 0.0 && !contains(limiting_, unit);
     });
+    sort_by(missed, [&](std::size_t unit) { return -missed_by(unit); });
     if (missed.size() > most_added) missed.resize(most_added);
-    limiting_.insert(limiting_.end(), missed.begin(), missed.end());
+    add_all(limiting_, missed);
     return !missed.empty();
   }
 
@@ -458,9 +448,8 @@ class Tuning {
                      .rounds = rounds_,
                      .analyses = analyses_,
                      .stopped = stopped_};
-    for (const JudgedUnit& one : best.units) {
-      tuned.undecided += !one.is_met && !one.is_known ? 1 : 0;
-    }
+    tuned.undecided =
+        count_of(best.units, [](const JudgedUnit& one) { return !one.is_met && !one.is_known; });
     if (const std::size_t worst = best.worst(); worst < best.units.size()) {
       tuned.limiting = unit_of(best, worst);
     }
@@ -496,7 +485,7 @@ std::vector<Fault> faults_of_tuned(const TuneTask& task) {
     const Parameter* parameter = parameter_of(axis, task.series.nominal);
     if (!parameter->choices.empty()) check.refuse(axis.path, "a word", "must be a number");
     if (axis.values.size() < 2) check.refuse(axis.path, "one value", "must have two ends");
-    if (std::find(paths.begin(), paths.end(), parameter->path) != paths.end()) {
+    if (contains(paths, parameter->path)) {
       check.refuse(axis.path, "twice", "must be named once");
     }
     paths.push_back(parameter->path);

@@ -1,12 +1,12 @@
 #include "question/change/tune_derivatives.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/lists.hpp"
 #include "gearlash/sensitivity.hpp"
 #include "model/sound_drive.hpp"
 #include "question/analyse.hpp"
@@ -26,7 +26,7 @@ bool is_of_loop(Quantity quantity) { return info_of(quantity).scope == QuantityS
 bool is_of_cycle(Quantity quantity) {
   constexpr std::array of_cycle = {Quantity::amplitude, Quantity::motor_amplitude, Quantity::period,
                                    Quantity::frequency, Quantity::growth_at_rest};
-  return std::find(of_cycle.begin(), of_cycle.end(), quantity) != of_cycle.end();
+  return contains(of_cycle, quantity);
 }
 
 Answer with_loop(const Drive& drive) {
@@ -49,7 +49,7 @@ class UnitSlopes {
   }
 
   std::optional<SlopedNumbers> all(Progress& progress) {
-    if (std::find(values_.begin(), values_.end(), 0.0) != values_.end()) return std::nullopt;
+    if (contains(values_, 0.0)) return std::nullopt;
     if (!add_loop() || !add_motion(progress)) return std::nullopt;
     return std::move(numbers_);
   }
@@ -108,16 +108,15 @@ class UnitSlopes {
   }
 
   bool add_motion(Progress& progress) {
-    std::vector<QuantityLimit> limits;
-    std::copy_if(task_.target.limits.begin(), task_.target.limits.end(), std::back_inserter(limits),
+    std::vector<QuantityLimit> limits =
+        those_of(task_.target.limits,
                  [](const QuantityLimit& limit) { return is_of_cycle(limit.quantity); });
     if (asks_for_rest(task_.target)) {
       limits.push_back({Quantity::growth_at_rest, {-Target::infinity, 1.0}});
     }
     if (limits.empty()) return true;
-    std::vector<Quantity> quantities;
-    for (const QuantityLimit& limit : limits) quantities.push_back(limit.quantity);
-    const std::optional<Jacobian> jacobian = jacobian_of(quantities, progress);
+    const std::optional<Jacobian> jacobian =
+        jacobian_of(of_each(limits, &QuantityLimit::quantity), progress);
     if (!jacobian) return false;
     for (std::size_t i = 0; i < limits.size(); ++i) {
       const Bounds& permitted = limits[i].permitted;
@@ -162,8 +161,7 @@ bool may_have_slopes(const TuneTask& task) {
   const std::vector<QuantityLimit>& limits = task.target.limits;
   return task.aim == Aim::bandwidth &&
          (!asks_for_rest(task.target) || !engines_of(task.series.nominal).search) &&
-         !task.series.nominal.sampling &&
-         std::all_of(limits.begin(), limits.end(), [](const QuantityLimit& limit) {
+         !task.series.nominal.sampling && all_of(limits, [](const QuantityLimit& limit) {
            return is_of_loop(limit.quantity) || is_of_cycle(limit.quantity);
          });
 }

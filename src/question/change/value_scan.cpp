@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/bracketed_root.hpp"
+#include "base/lists.hpp"
 #include "base/on_threads.hpp"
 #include "question/analyse.hpp"
 
@@ -62,8 +63,7 @@ JudgedValue JudgedLine::judged(double value, const AnalysedLine::Known& analysis
 }
 
 bool is_in(const std::vector<Bounds>& intervals, double value) {
-  return std::any_of(intervals.begin(), intervals.end(),
-                     [&](const Bounds& interval) { return interval.contains(value); });
+  return any_of(intervals, [&](const Bounds& interval) { return interval.contains(value); });
 }
 
 void add(std::vector<Bounds>& intervals, const Bounds& more) {
@@ -79,44 +79,34 @@ double middle_value(double low, double high) {
 }
 
 std::vector<JudgedValue> judged_values(const Judge& judge, const std::vector<double>& values) {
-  std::vector<JudgedValue> all(values.size());
-  on_threads(0, values.size(), [&](std::size_t i) { all[i] = judge(values[i]); });
-  return all;
+  return of_each_on_threads(values, judge);
 }
 
 std::vector<JudgedValue> tried_between(std::vector<JudgedValue> tried, const Judge& judge,
                                        const ScanPlan& plan) {
   for (int i = 0; i < plan.most_halvings; ++i) {
-    const bool met_unknown =
-        std::any_of(tried.begin(), tried.end(), [](const auto& one) { return !one.is_known; });
+    const bool met_unknown = any_of(tried, [](const auto& one) { return !one.is_known; });
     const bool everywhere = met_unknown && i < plan.halvings_everywhere;
     const std::vector<JudgedValue> between =
         judged_values(judge, middles_to_try(tried, everywhere));
     if (between.empty()) break;
-    tried.insert(tried.end(), between.begin(), between.end());
-    std::sort(tried.begin(), tried.end(),
-              [](const auto& a, const auto& b) { return a.value < b.value; });
+    add_all(tried, between);
+    sort_by(tried, &JudgedValue::value);
   }
   return tried;
 }
 
 std::vector<Part> parts_between(const std::vector<JudgedValue>& tried) {
-  std::vector<Part> parts;
-  for (std::size_t i = 0; i + 1 < tried.size(); ++i) {
-    const JudgedValue& low = tried[i];
-    const JudgedValue& high = tried[i + 1];
+  return of_neighbors(tried, [](const JudgedValue& low, const JudgedValue& high) {
     const Judgement alike = low.is_met ? Judgement::all : Judgement::none;
-    parts.push_back({{low.value, high.value},
-                     low.is_met == high.is_met ? alike : Judgement::some,
-                     !low.is_known || !high.is_known});
-  }
-  return parts;
+    return Part{{low.value, high.value},
+                low.is_met == high.is_met ? alike : Judgement::some,
+                !low.is_known || !high.is_known};
+  });
 }
 
 double closest_of(const std::vector<JudgedValue>& tried) {
-  const auto closest = std::min_element(
-      tried.begin(), tried.end(), [](const auto& a, const auto& b) { return a.beyond < b.beyond; });
-  return closest->value;
+  return std::min_element(tried.begin(), tried.end(), by(&JudgedValue::beyond))->value;
 }
 
 LastMet last_met(const Judge& judge, double met, double unmet, const Resolution& resolution) {
@@ -164,16 +154,14 @@ void put_together(const std::vector<Part>& parts, const std::function<bool(doubl
     bool high_met = false;
     LastMet last{};
   };
-  std::vector<Ends> ends(parts.size());
-  on_threads(0, parts.size(), [&](std::size_t i) {
-    const auto& [values, judgement, is_unknown] = parts[i];
-    if (is_unknown || judgement != Judgement::some) return;
-    const bool low_met = is_met_at(values.low);
-    const bool high_met = is_met_at(values.high);
-    ends[i] = {low_met, high_met, {}};
-    if (low_met == high_met) return;
-    ends[i].last = low_met ? last_met_between(values.low, values.high)
-                           : last_met_between(values.high, values.low);
+  const std::vector<Ends> ends = of_each_on_threads(parts, [&](const Part& part) {
+    const auto& [low, high] = part.values;
+    if (part.is_unknown || part.judgement != Judgement::some) return Ends{};
+    const bool low_met = is_met_at(low);
+    const bool high_met = is_met_at(high);
+    if (low_met == high_met) return Ends{low_met, high_met, {}};
+    return Ends{low_met, high_met,
+                low_met ? last_met_between(low, high) : last_met_between(high, low)};
   });
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Part& part = parts[i];

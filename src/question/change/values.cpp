@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/lists.hpp"
 #include "base/on_threads.hpp"
 #include "base/progress_part.hpp"
 #include "base/range_check.hpp"
@@ -94,8 +95,7 @@ class ServoSearch {
       for (const Bounds& values : open) proved.push_back({values, Judgement::some});
       break;
     }
-    std::sort(proved.begin(), proved.end(),
-              [](const Part& a, const Part& b) { return a.values.low < b.values.low; });
+    sort_by(proved, [](const Part& part) { return part.values.low; });
     return proved;
   }
 
@@ -146,9 +146,8 @@ class ServoSearch {
     if (!bounces) return values;
     // Growth at rest is cheap; between these values it passes 1 or a limit.
     const std::vector<double> looked_at = spread_over(range, fine, evenly);
-    std::vector<double> growths(looked_at.size());
-    on_threads(0, looked_at.size(), [&](std::size_t i) {
-      if (judged_.line().progress().go_on(0.0)) growths[i] = line_.growth_at(looked_at[i]);
+    const std::vector<double> growths = of_each_on_threads(looked_at, [&](double value) {
+      return judged_.line().progress().go_on(0.0) ? line_.growth_at(value) : 0.0;
     });
     const auto differ = [&](double a, double b) {
       return (a > 1.0) != (b > 1.0) || is_ruled_out(target_, a) != is_ruled_out(target_, b);
@@ -239,9 +238,9 @@ FeasibleValues values_of_servos(const ServoLine& line, const Bounds& range, cons
 /// The values within an interval, with its ends, rising.
 std::vector<double> values_within(const Bounds& interval, const std::vector<double>& values) {
   std::vector<double> within = {interval.low};
-  for (const double value : values) {
-    if (value > interval.low && value < interval.high) within.push_back(value);
-  }
+  add_all(within, those_of(values, [&](double value) {
+            return value > interval.low && value < interval.high;
+          }));
   if (interval.high > interval.low) within.push_back(interval.high);
   return within;
 }
@@ -249,7 +248,7 @@ std::vector<double> values_within(const Bounds& interval, const std::vector<doub
 /// The borders of the intervals that are left. `before`: the intervals that were narrowed.
 void name_ends(const std::vector<Bounds>& before, FeasibleValues& found) {
   const auto has_end = [](const std::vector<Bounds>& intervals, double end) {
-    return std::any_of(intervals.begin(), intervals.end(), [&](const Bounds& interval) {
+    return any_of(intervals, [&](const Bounds& interval) {
       return interval.low == end || interval.high == end;
     });
   };
@@ -284,14 +283,14 @@ void narrow(const Drive& drive, const Axis& axis, const ServoLine* line, const T
   std::vector<JudgedValue> all;
   for (const Bounds& interval : intervals) {
     const std::vector<JudgedValue> tried = tried_values(judge, values_within(interval, values));
-    all.insert(all.end(), tried.begin(), tried.end());
+    add_all(all, tried);
     if (tried.size() == 1 && tried[0].is_met) found.intervals.push_back(interval);
     FeasibleValues within;
     put_together(
         parts_between(tried), [&](double value) { return judge(value).is_met; },
         [&](double met, double unmet) { return last_met(judge, met, unmet, resolution); }, within);
-    for (const Bounds& part : within.intervals) found.intervals.push_back(part);
-    for (const Bounds& part : within.undecided) found.undecided.push_back(part);
+    add_all(found.intervals, within.intervals);
+    add_all(found.undecided, within.undecided);
   }
   name_ends(intervals, found);
   if (found.intervals.empty() && !all.empty()) found.closest = closest_of(all);
@@ -336,10 +335,7 @@ void cut_to_sound_drives(const Axis& axis, const Drive& drive, FeasibleValues& f
 /// What a target says of ceilings is proved over each interval, as far as bounds go.
 void prove_ceilings(const Drive& drive, const Axis& axis, const Target& target,
                     FeasibleValues& found, Progress& progress) {
-  Target ceilings;
-  for (const QuantityLimit& limit : target.limits) {
-    if (is_provable(limit)) ceilings.limits.push_back(limit);
-  }
+  const Target ceilings{.limits = those_of(target.limits, is_provable)};
   if (is_empty(ceilings)) return;
   constexpr std::size_t most_boxes = 8000;
   for (const Bounds& interval : found.intervals) {
@@ -353,7 +349,7 @@ bool asks_for_more(const Axis& axis, double word, const Drive& drive) {
   Drive changed = drive;
   set_on(axis, changed, word);
   const std::vector<Parameter>& all = all_parameters_of_drives();
-  return std::any_of(all.begin(), all.end(), [&](const Parameter& parameter) {
+  return any_of(all, [&](const Parameter& parameter) {
     return parameter.is_required && exists(parameter, changed) && !exists(parameter, drive);
   });
 }
@@ -420,9 +416,9 @@ FeasibleValues values_of_number(const Drive& drive, const Axis& axis, const Targ
   }
   if (!is_empty(others)) {
     at_closest.reset();
-    const bool of_motion =
-        line && std::any_of(others.limits.begin(), others.limits.end(),
-                            [](const QuantityLimit& limit) { return !is_figure(limit.quantity); });
+    const bool of_motion = line && any_of(others.limits, [](const QuantityLimit& limit) {
+                             return !is_figure(limit.quantity);
+                           });
     constexpr std::size_t count = 64;
     const std::vector<double> values =
         line ? spread_over(found.searched, count, line->is_share()) : found.grid;
@@ -451,12 +447,10 @@ std::optional<double> FeasibleValues::nearest() const {
 
 std::vector<double> FeasibleValues::nearest_of_each() const {
   if (closest) return {*closest};
-  std::vector<double> nearest;
-  for (const Bounds& interval : intervals) {
+  return of_each(intervals, [&](const Bounds& interval) {
     const double from = std::isnan(present) ? interval.low : present;
-    nearest.push_back(std::clamp(from, interval.low, interval.high));
-  }
-  return nearest;
+    return std::clamp(from, interval.low, interval.high);
+  });
 }
 
 Axis usual_axis(const Drive& drive, std::string_view parameter) {
@@ -503,11 +497,7 @@ FeasibleValues values(const Drive& drive, const Axis& axis, const Target& target
 
 FeasibleValues values(const Drive& drive, const Axis& axis, const Target& target,
                       Progress& progress, AnalysedLine::Known& at_closest) {
-  std::vector<Fault> all = faults(drive);
-  for (const std::vector<Fault>& more : {faults_of_axis(axis, drive, "axis"), faults(target)}) {
-    all.insert(all.end(), more.begin(), more.end());
-  }
-  require_none(std::move(all));
+  require_none(faults(drive), faults_of_axis(axis, drive, "axis"), faults(target));
   const std::optional<double> present = present_value(axis, drive);
   const auto [least, most] = std::minmax_element(axis.values.begin(), axis.values.end());
   FeasibleValues found{.parameter = axis.path,

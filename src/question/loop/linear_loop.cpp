@@ -9,6 +9,7 @@
 #include <numbers>
 #include <vector>
 
+#include "base/lists.hpp"
 #include "general/assemble/time_scale.hpp"
 #include "model/stepped_drive.hpp"
 #include "numeric/elimination.hpp"
@@ -138,10 +139,8 @@ std::vector<FrequencySample> samples_of(const Function& function,
         samples[i + 1].frequency, half_of_the_digits, most);
     if (least < 0.0 && std::isfinite(least)) extremes.push_back({frequency, sign * least});
   }
-  samples.insert(samples.end(), extremes.begin(), extremes.end());
-  std::sort(samples.begin(), samples.end(), [](const FrequencySample& a, const FrequencySample& b) {
-    return a.frequency < b.frequency;
-  });
+  add_all(samples, extremes);
+  sort_by(samples, &FrequencySample::frequency);
   return samples;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/lists.hpp"
 #include "base/on_threads.hpp"
 #include "base/shared_progress.hpp"
 #include "gearlash/grid.hpp"
@@ -32,11 +33,12 @@ class Plane {
     // A row's later starts join what its first ones led to.
     on_threads(0, rows - first, [&](std::size_t i) {
       const std::size_t row = first + i;
-      std::vector<drive::ShaftStates> starts;
-      for (const double position : basins_.positions.values) {
-        starts.push_back(start_on_face(drive_, plane_, position, basins_.speeds.values[row]));
-      }
-      const std::vector<BasinKind> found = kinds_of(std::move(starts), progress);
+      const std::vector<BasinKind> found = kinds_of(
+          of_each(basins_.positions.values,
+                  [&](double position) {
+                    return start_on_face(drive_, plane_, position, basins_.speeds.values[row]);
+                  }),
+          progress);
       for (std::size_t column = 0; column < found.size(); ++column) {
         basins_.kinds[row * columns + column] = found[column];
         if (is_mirrored_) {
@@ -52,16 +54,13 @@ class Plane {
     const auto count = [&](BasinKind kind) {
       return std::count(basins_.kinds.begin(), basins_.kinds.end(), kind);
     };
-    const BasinKind most = *std::max_element(
-        basin_kinds.begin(), basin_kinds.end(),
-        [&](BasinKind one, BasinKind other) { return count(one) < count(other); });
+    const BasinKind most = *std::max_element(basin_kinds.begin(), basin_kinds.end(), by(count));
     for (const BasinKind kind : basin_kinds) {
       if (kind == most || count(kind) == 0 || progress.is_stopped()) continue;
       const auto side_of = [&](BasinKind found) {
         return found == kind ? Side::inside : Side::outside;
       };
-      std::vector<Side> corners;
-      for (const BasinKind found : basins_.kinds) corners.push_back(side_of(found));
+      const std::vector<Side> corners = of_each(basins_.kinds, side_of);
       const auto side_at = [&](const MapPoint& place) {
         return side_of(
             kinds_of({start_on_face(drive_, plane_, place.x, place.y)}, progress).front());
@@ -69,7 +68,7 @@ class Plane {
       constexpr CurveAccuracy accuracy{.halvings = 5, .straightness = 0.01, .shortest_chord = 0.02};
       const std::vector<MapCurve> curves =
           boundary_of_region(basins_.positions, basins_.speeds, corners, side_at, accuracy);
-      basins_.borders.insert(basins_.borders.end(), curves.begin(), curves.end());
+      add_all(basins_.borders, curves);
     }
   }
 
@@ -109,9 +108,7 @@ BasinKind kind_of(drive::MotionEnd end) {
   return BasinKind::not_known;
 }
 
-bool Basins::has(BasinKind kind) const {
-  return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
-}
+bool Basins::has(BasinKind kind) const { return contains(kinds, kind); }
 
 drive::ShaftStates start_on_face(const drive::ReducedDrive& drive, const StartPlane& plane,
                                  double position, double speed) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/lists.hpp"
 #include "base/on_threads.hpp"
 #include "base/shared_progress.hpp"
 #include "base/special_numbers.hpp"
@@ -187,7 +188,7 @@ class Chains {
     for (std::size_t column = i; column < columns_.size(); ++column) {
       const Node& node = columns_[column][k];
       chain.push_back(node.cycle);
-      chain.insert(chain.end(), node.after.begin(), node.after.end());
+      add_all(chain, node.after);
       if (!node.next) {
         ends = column + 1 < columns_.size();
         break;
@@ -475,10 +476,10 @@ BifurcationDiagram bifurcations_of(const Drive& drive, const Axis& axis, Progres
   const std::size_t count = axis.values.size();
   SharedProgress shared(progress, 3 * count);
   AnalysedLine line(drives_along(axis, drive), {.proofs = false}, count, shared);
-  std::vector<AnalysedLine::Known> values(count);
-  on_threads(0, count, [&](std::size_t i) {
-    if (!shared.is_stopped()) values[i] = line.afresh(axis.values[i]);
+  const auto values = of_each_on_threads(axis.values, [&](double value) {
+    const AnalysedLine::Known there = shared.is_stopped() ? nullptr : line.afresh(value);
     shared.finish(2);
+    return there;
   });
   BifurcationDiagram diagram;
   for (std::size_t i = 0; i < count; ++i) {

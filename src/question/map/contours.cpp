@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "base/lists.hpp"
 #include "base/special_numbers.hpp"
 #include "question/analyse.hpp"
 #include "question/family/evaluation.hpp"
@@ -68,18 +69,11 @@ Side side_of(double value, double level) {
 constexpr std::array coarse_digits = {1.0, 2.0, 5.0};
 constexpr std::array fine_digits = {1.0, 1.5, 2.0, 3.0, 5.0, 7.0};
 
-/// The smallest product of one of the digits and a power of ten that is not below `number`.
-double round_number_from(double number, std::span<const double> digits) {
-  const double power = std::pow(10.0, std::floor(std::log10(number) + 1e-9));
-  for (const double digit : digits) {
-    if (digit * power >= number * (1.0 - 1e-9)) return digit * power;
-  }
-  return 10.0 * power;
-}
+constexpr double rounding = 1e-9;
 
 std::vector<double> even_levels(double low, double high) {
   constexpr double most = 10.0;
-  const double step = round_number_from((high - low) / most, coarse_digits);
+  const double step = round_number_from((high - low) / most, coarse_digits, rounding);
   std::vector<double> levels;
   for (double i = std::ceil(low / step); i * step <= high; i += 1.0) levels.push_back(i * step);
   return levels;
@@ -88,8 +82,8 @@ std::vector<double> even_levels(double low, double high) {
 std::vector<double> levels_by_factors(double low, double high, std::span<const double> digits) {
   constexpr double more = 1.0 + 1e-6;
   std::vector<double> levels;
-  for (double level = round_number_from(low, digits); level <= high;
-       level = round_number_from(more * level, digits)) {
+  for (double level = round_number_from(low, digits, rounding); level <= high;
+       level = round_number_from(more * level, digits, rounding)) {
     levels.push_back(level);
   }
   return levels;
@@ -141,9 +135,8 @@ std::vector<Contour> contours_of(const Grid& grid, const Table& table, Quantity 
   }
   std::vector<Contour> contours;
   for (const double level : levels) {
-    std::vector<Side> corners;
-    corners.reserve(values.size());
-    for (const double value : values) corners.push_back(side_of(value, level));
+    const std::vector<Side> corners =
+        of_each(values, [&](double value) { return side_of(value, level); });
     const auto side_at = [&](const MapPoint& place) {
       return side_of(
           is_solved ? worked_out(family, quantity, place) : interpolated(grid, values, place),

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/lists.hpp"
 #include "base/range_check.hpp"
 #include "question/family/evaluation.hpp"
 
@@ -57,10 +58,8 @@ std::vector<Fault> faults_of_columns(const DriveList& list) {
       check.refuse(list.paths[i], std::to_string(values.size()) + " values",
                    "must be as many as " + list.paths.front() + " has, at least one");
     }
-    const auto none =
-        std::find_if(values.begin(), values.end(), [](double value) { return std::isnan(value); });
-    if (none != values.end()) {
-      check.refuse(list.paths[i] + "[" + std::to_string(none - values.begin()) + "]", "nan",
+    if (const double* none = first_of(values, [](double value) { return std::isnan(value); })) {
+      check.refuse(list.paths[i] + "[" + std::to_string(none - values.data()) + "]", "nan",
                    "must be a number");
     }
   }
@@ -122,7 +121,7 @@ std::span<const double> Table::operator[](Quantity quantity) const {
   const std::vector<double>& column = columns_[static_cast<std::size_t>(quantity)];
   if (column.empty() && rows() > 0) {
     require_none({{"quantity", std::string(name_of(quantity)),
-                   "must be one of the quantities of the table", ""}});
+                   "must be one of the quantities of the table"}});
   }
   return column;
 }

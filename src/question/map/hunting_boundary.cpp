@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/lists.hpp"
 #include "base/special_numbers.hpp"
 #include "closed_form/energy_balance.hpp"
 #include "closed_form/growth_at_rest.hpp"
@@ -49,9 +50,8 @@ std::vector<MapCurve> dissipative_boundary(const Grid& grid, Progress& progress)
 std::vector<MapCurve> hunting_boundary(const Grid& grid, std::span<const double> growth_at_rest,
                                        Progress& progress) {
   const Family family(grid);
-  std::vector<Side> corners;
-  corners.reserve(growth_at_rest.size());
-  for (const double growth : growth_at_rest) corners.push_back(side_of(growth));
+  const std::vector<Side> corners =
+      of_each(growth_at_rest, [](double growth) { return side_of(growth); });
   const auto side = [&](const MapPoint& place) { return side_of_hunting(servo_at(family, place)); };
   return boundary_of_region(grid.axes[1], grid.axes[0], corners, side, {}, progress);
 }

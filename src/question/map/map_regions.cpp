@@ -7,6 +7,7 @@
 #include <mutex>
 #include <utility>
 
+#include "base/lists.hpp"
 #include "base/names.hpp"
 #include "base/progress_part.hpp"
 #include "base/shared_progress.hpp"
@@ -89,7 +90,7 @@ std::vector<MapRegion> outlined(const Grid& grid, std::span<const PlaceKind> poi
   std::vector<MapRegion> regions;
   for (std::size_t i = 0; i < region_order.size(); ++i) {
     const PlaceKind kind = region_order[i];
-    if (std::find(points.begin(), points.end(), kind) == points.end()) continue;
+    if (!contains(points, kind)) continue;
     const auto side_at = [&](const MapPoint& place) {
       const bool is_on_map = contains(x, place.x) && contains(y, place.y);
       return is_on_map && judge.kind_at(place) == kind ? Side::inside : Side::outside;
@@ -175,7 +176,7 @@ AskedOfRows asked_for_kinds(const Family& family, const std::optional<Target>& t
 }
 
 bool has_regions(const Grid& grid) {
-  return std::all_of(grid.axes.begin(), grid.axes.end(), [&](const Axis& axis) {
+  return all_of(grid.axes, [&](const Axis& axis) {
     return axis.values.size() > 1 && std::isfinite(axis.values.back()) &&
            parameter_of(axis, grid.drive)->choices.empty();
   });

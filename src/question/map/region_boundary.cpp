@@ -6,6 +6,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "base/lists.hpp"
 #include "base/on_threads.hpp"
 #include "base/shared_progress.hpp"
 #include "question/map/side_bisection.hpp"
@@ -148,11 +149,11 @@ void BoundaryFinder::locate_edges() {
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  std::vector<std::optional<MapPoint>> places(edges.size());
   progress_.emplace(whole_, std::max<std::size_t>(1, edges.size()));
-  on_threads(0, edges.size(), [&](std::size_t i) {
-    places[i] = on_edge(edges[i]);
+  const auto places = of_each_on_threads(edges, [&](EdgeId edge) {
+    const std::optional<MapPoint> place = on_edge(edge);
     progress_->finish(1);
+    return place;
   });
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (places[i]) points_.emplace(edges[i], *places[i]);
@@ -215,7 +216,7 @@ MapCurve BoundaryFinder::refined(const MapCurve& curve) const {
   MapCurve fine;
   for (std::size_t i = 0; i < inserted.size(); ++i) {
     fine.push_back(curve[i]);
-    fine.insert(fine.end(), inserted[i].begin(), inserted[i].end());
+    add_all(fine, inserted[i]);
   }
   fine.push_back(curve.back());
   return fine;

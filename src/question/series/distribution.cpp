@@ -5,6 +5,7 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 
+#include "base/lists.hpp"
 #include "base/overloaded.hpp"
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
@@ -260,8 +261,7 @@ QuantileFunction::QuantileFunction(const Distribution& distribution)
   } else if (const DiscreteLots* discrete = std::get_if<DiscreteLots>(&distribution)) {
     kind_ = Kind::lots;
     std::vector<Lot> lots = discrete->lots;
-    std::stable_sort(lots.begin(), lots.end(),
-                     [](const Lot& a, const Lot& b) { return a.value < b.value; });
+    sort_by(lots, &Lot::value);
     const double all = sum_of_weights(*discrete);
     double sum = 0.0;
     for (const Lot& lot : lots) {

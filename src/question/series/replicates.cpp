@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/bits_of_double.hpp"
+#include "base/lists.hpp"
 #include "base/on_threads.hpp"
 #include "base/shared_progress.hpp"
 #include "base/special_numbers.hpp"
@@ -41,11 +42,9 @@ std::optional<Estimate> ratio_of(std::span<const double> numerators,
   if (!(denominator > 0.0)) return std::nullopt;
   const double ratio = numerator / denominator;
   const double mean = denominator / static_cast<double>(denominators.size());
-  std::vector<double> differences;
-  for (std::size_t i = 0; i < numerators.size(); ++i) {
-    differences.push_back((numerators[i] - ratio * denominators[i]) / mean);
-  }
-  return estimate_of(ratio, differences);
+  return estimate_of(ratio, of_each(indices(numerators.size()), [&](std::size_t i) {
+                       return (numerators[i] - ratio * denominators[i]) / mean;
+                     }));
 }
 
 std::size_t SortedReplicates::size() const {
@@ -88,26 +87,29 @@ double SortedReplicates::quantile(double p) const {
 
 std::optional<Estimate> SortedReplicates::estimated_quantile(double p) const {
   if (size() == 0) return std::nullopt;
-  std::vector<double> each;
-  for (const auto& replicate : replicates)
-    each.push_back(SortedReplicates{{replicate}}.quantile(p));
-  return estimate_of(quantile(p), each);
+  return estimate_of(quantile(p), of_each(replicates, [&](const auto& replicate) {
+                       return SortedReplicates{{replicate}}.quantile(p);
+                     }));
 }
 
+namespace {
+
+std::size_t places_below(std::span<const double> sorted, double value) {
+  return static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), value) -
+                                  sorted.begin());
+}
+
+}  // namespace
+
 SortedReplicates SortedReplicates::from(double low) const {
-  SortedReplicates part;
-  for (const auto& all : replicates) {
-    part.replicates.emplace_back(std::lower_bound(all.begin(), all.end(), low), all.end());
-  }
-  return part;
+  return {of_each(replicates, [&](std::span<const double> all) {
+    return all.subspan(places_below(all, low));
+  })};
 }
 
 SortedReplicates SortedReplicates::below(double high) const {
-  SortedReplicates part;
-  for (const auto& all : replicates) {
-    part.replicates.emplace_back(all.begin(), std::lower_bound(all.begin(), all.end(), high));
-  }
-  return part;
+  return {of_each(replicates,
+                  [&](std::span<const double> all) { return all.first(places_below(all, high)); })};
 }
 
 SortedReplicates sorted(std::span<double> column, std::size_t replicates, std::size_t threads) {

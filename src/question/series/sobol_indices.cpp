@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/lists.hpp"
 #include "base/progress_part.hpp"
 #include "base/range_check.hpp"
 #include "question/series/replicates.hpp"
@@ -44,12 +45,16 @@ struct Sums {
     }
   }
 
-  double mean() const { return both / (2.0 * points); }
-  double variance() const { return both_squared / (2.0 * points) - mean() * mean(); }
+  // 0 without points.
+  double mean() const { return share(both / 2.0); }
+  double variance() const { return share(both_squared / 2.0) - mean() * mean(); }
   double first_variance(std::size_t number) const {
-    return (first[number] - mean() * shift[number]) / points;
+    return share(first[number] - mean() * shift[number]);
   }
-  double total_variance(std::size_t number) const { return total[number] / (2.0 * points); }
+  double total_variance(std::size_t number) const { return share(total[number] / 2.0); }
+
+ private:
+  double share(double sum) const { return points > 0.0 ? sum / points : 0.0; }
 };
 
 struct ReplicateSums {
@@ -124,9 +129,9 @@ class Indices {
     double sum = 0.0;
     double largest = std::abs(usual);
     for (const Sums* sums : replicates_) {
-      variances_.push_back(sums->points > 0.0 ? sums->variance() : 0.0);
+      variances_.push_back(sums->variance());
       sum += variances_.back();
-      if (sums->points > 0.0) largest = std::max(largest, std::abs(sums->mean() + usual));
+      largest = std::max(largest, std::abs(sums->mean() + usual));
     }
     const double mean = sum / static_cast<double>(variances_.size());
     variance_ = detail::estimate_of(mean, variances_);
@@ -137,14 +142,14 @@ class Indices {
   Estimate variance() const { return variance_; }
   std::optional<SensitivityIndices> of(std::size_t number) const {
     if (!varies_) return std::nullopt;
-    std::vector<double> first;
-    std::vector<double> total;
-    for (const Sums* sums : replicates_) {
-      first.push_back(sums->points > 0.0 ? sums->first_variance(number) : 0.0);
-      total.push_back(sums->points > 0.0 ? sums->total_variance(number) : 0.0);
-    }
-    return SensitivityIndices{*detail::ratio_of(first, variances_),
-                              *detail::ratio_of(total, variances_)};
+    const auto share_of = [&](double (Sums::*part)(std::size_t) const) {
+      return *detail::ratio_of(of_each(replicates_,
+                                       [&](const Sums* sums) {
+                                         return sums->points > 0.0 ? (sums->*part)(number) : 0.0;
+                                       }),
+                               variances_);
+    };
+    return SensitivityIndices{share_of(&Sums::first_variance), share_of(&Sums::total_variance)};
   }
 
  private:
@@ -181,9 +186,7 @@ SensitivityStudy study_of(const TolerancedDrive& drive, const SamplePlan& sampli
 SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const SamplePlan& sampling,
                                      const StudyQuestions& questions, const Workers& workers,
                                      Progress& progress) {
-  RangeCheck check;
-  check.include(faults(drive)).include(faults(sampling)).include(faults(questions));
-  require_none(check.faults());
+  require_none(faults(drive), faults(sampling), faults(questions));
   const std::size_t numbers = drive.varied.size();
   if (numbers == 0) return {.sampling = sampling};
   const detail::SampleValues values(drive, sampling, 2);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/lists.hpp"
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
 #include "question/series/replicates.hpp"
@@ -22,11 +23,9 @@ constexpr double above_zero = std::numeric_limits<double>::denorm_min();
 
 std::vector<QuantileEstimate> quantiles_of(const SortedReplicates& numbers,
                                            const std::vector<double>& shares) {
-  std::vector<QuantileEstimate> quantiles;
-  for (const double share : shares) {
-    quantiles.push_back({share, numbers.estimated_quantile(share)});
-  }
-  return quantiles;
+  return of_each(shares, [&](double share) {
+    return QuantileEstimate{share, numbers.estimated_quantile(share)};
+  });
 }
 
 /// Empty bins from `low` to `high`.
@@ -119,13 +118,6 @@ bool answer_all(const TolerancedDrive& drive, const SamplePlan& sampling,
       all, progress);
 }
 
-void require_sound(const TolerancedDrive& drive, const SamplePlan& sampling,
-                   const StudyQuestions& questions) {
-  RangeCheck check;
-  check.include(faults(drive)).include(faults(sampling)).include(faults(questions));
-  require_none(check.faults());
-}
-
 }  // namespace
 
 std::vector<Fault> faults(const StudyQuestions& questions) {
@@ -155,11 +147,11 @@ std::optional<SampleResults> answer_samples(const TolerancedDrive& drive,
                                             const StudyQuestions& questions, std::size_t first,
                                             std::size_t count, const Workers& workers,
                                             Progress& progress) {
-  require_sound(drive, sampling, questions);
+  require_none(faults(drive), faults(sampling), faults(questions));
   const std::size_t samples = sampling.samples();
   if (first >= samples || count == 0 || count > samples - first) {
     require_none({{"samples", std::to_string(first) + " and " + std::to_string(count) + " more",
-                   "must be among the " + std::to_string(samples) + " of the plan", ""}});
+                   "must be among the " + std::to_string(samples) + " of the plan"}});
   }
   SampleResults all(count);
   if (!answer_all(drive, sampling, questions, first, workers, progress, all)) return std::nullopt;
@@ -168,12 +160,10 @@ std::optional<SampleResults> answer_samples(const TolerancedDrive& drive,
 
 ToleranceStudy study_of(const SamplePlan& sampling, const StudyQuestions& questions,
                         std::span<const SampleResult> results, std::size_t threads) {
-  RangeCheck check;
-  check.include(faults(sampling)).include(faults(questions));
-  require_none(check.faults());
+  require_none(faults(sampling), faults(questions));
   if (results.size() != sampling.samples()) {
     require_none({{"results", std::to_string(results.size()),
-                   "must be as many as samples: " + std::to_string(sampling.samples()), ""}});
+                   "must be as many as samples: " + std::to_string(sampling.samples())}});
   }
   ToleranceStudy study = counted(sampling, results);
   std::vector<double> column(results.size());  // one, for memory
@@ -198,7 +188,7 @@ ToleranceStudy study_of(const SamplePlan& sampling, const StudyQuestions& questi
 ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& sampling,
                                 const StudyQuestions& questions, const Workers& workers,
                                 Progress& progress) {
-  require_sound(drive, sampling, questions);
+  require_none(faults(drive), faults(sampling), faults(questions));
   SampleResults results(sampling.samples());
   return answer_all(drive, sampling, questions, 0, workers, progress, results)
              ? study_of(sampling, questions, results, workers.threads)

@@ -1,9 +1,9 @@
 #include "question/series/toleranced_drive.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "base/lists.hpp"
 #include "base/range_check.hpp"
 #include "gearlash/parameter.hpp"
 #include "model/parameters.hpp"
@@ -99,7 +99,7 @@ std::vector<Fault> faults_of_fixed(const TolerancedDrive& drive) {
   }
   std::vector<Fault> found = faults(fixed);
   std::erase_if(found, [&](const Fault& fault) {
-    return std::any_of(drive.varied.begin(), drive.varied.end(), [&](const auto& varied) {
+    return any_of(drive.varied, [&](const auto& varied) {
       const bool is_derived = fault.path != "drive" && fault.path.find('.') == std::string::npos;
       return is_derived || fault.path == varied.path;
     });
@@ -109,12 +109,10 @@ std::vector<Fault> faults_of_fixed(const TolerancedDrive& drive) {
 
 std::vector<Axis> axes_between(const TolerancedDrive& drive,
                                Bounds (*ends_of)(const Distribution&)) {
-  std::vector<Axis> axes;
-  for (const ParameterTolerance& varied : drive.varied) {
+  return of_each(drive.varied, [&](const ParameterTolerance& varied) {
     const Bounds range = ends_of(varied.distribution);
-    axes.push_back({.path = varied.path, .values = {range.low, range.high}});
-  }
-  return axes;
+    return Axis{.path = varied.path, .values = {range.low, range.high}};
+  });
 }
 
 /// The faults of the first corner that is no valid drive.
@@ -140,23 +138,21 @@ Family family_of(const TolerancedDrive& drive) {
 bool may_bounce(const TolerancedDrive& drive) {
   const auto* rigid = std::get_if<RigidContact>(&drive.nominal.contact);
   return (rigid != nullptr && rigid->restitution > 0.0) ||
-         std::any_of(drive.varied.begin(), drive.varied.end(),
-                     [](const auto& varied) { return varied.path == "contact.restitution"; });
+         any_of(drive.varied,
+                [](const auto& varied) { return varied.path == "contact.restitution"; });
 }
 
 bool is_searched(const TolerancedDrive& drive) {
-  const bool are_numbers =
-      std::all_of(drive.varied.begin(), drive.varied.end(),
-                  [&](const auto& varied) { return is_number_of(drive.nominal, varied.path); });
+  const bool are_numbers = all_of(
+      drive.varied, [&](const auto& varied) { return is_number_of(drive.nominal, varied.path); });
   return are_numbers && family_of(drive).engines().search;
 }
 
 EnclosedCeiling ceiling_of_all(const TolerancedDrive& drive, Quantity amplitude,
                                Progress& progress) {
-  std::vector<BoxSide> box;
-  for (const ParameterTolerance& varied : drive.varied) {
-    box.push_back({varied.path, three_sigma_range_of(varied.distribution)});
-  }
+  const std::vector<BoxSide> box = of_each(drive.varied, [](const ParameterTolerance& varied) {
+    return BoxSide{varied.path, three_sigma_range_of(varied.distribution)};
+  });
   const bool is_of_motor = amplitude == Quantity::motor_amplitude;
   return enclosed_ceiling(drive.nominal, box,
                           {.quantity = is_of_motor ? Quantity::motor_ceiling : Quantity::ceiling},
@@ -164,11 +160,8 @@ EnclosedCeiling ceiling_of_all(const TolerancedDrive& drive, Quantity amplitude,
 }
 
 std::vector<double> means_of(const TolerancedDrive& drive) {
-  std::vector<double> means;
-  for (const ParameterTolerance& varied : drive.varied) {
-    means.push_back(mean_of(varied.distribution));
-  }
-  return means;
+  return of_each(drive.varied,
+                 [](const ParameterTolerance& varied) { return mean_of(varied.distribution); });
 }
 
 std::vector<Fault> faults(const TolerancedDrive& drive) {
@@ -186,11 +179,11 @@ std::string_view path_of_backlash(const Drive& drive) {
 }
 
 std::optional<std::size_t> place_of_backlash(const TolerancedDrive& drive) {
-  const auto found = std::find_if(
-      drive.varied.begin(), drive.varied.end(),
-      [&](const auto& varied) { return varied.path == path_of_backlash(drive.nominal); });
-  if (found == drive.varied.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - drive.varied.begin());
+  const ParameterTolerance* found = first_of(drive.varied, [&](const auto& varied) {
+    return varied.path == path_of_backlash(drive.nominal);
+  });
+  if (found == nullptr) return std::nullopt;
+  return static_cast<std::size_t>(found - drive.varied.data());
 }
 
 std::string_view unit_of(const Drive& drive, std::string_view path) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/lists.hpp"
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
 #include "gearlash/parameter.hpp"
@@ -75,15 +76,9 @@ std::optional<double> max_with_yield(const detail::SortedReplicates& maxima, dou
 }
 
 Estimate yield_with(const detail::SortedReplicates& maxima, double max) {
-  std::vector<double> meeting;
-  std::vector<double> samples;
-  for (const auto& replicate : maxima.from(max).replicates) {
-    meeting.push_back(static_cast<double>(replicate.size()));
-  }
-  for (const auto& replicate : maxima.replicates) {
-    samples.push_back(static_cast<double>(replicate.size()));
-  }
-  return *detail::ratio_of(meeting, samples);
+  const auto size = [](const auto& replicate) { return static_cast<double>(replicate.size()); };
+  return *detail::ratio_of(of_each(maxima.from(max).replicates, size),
+                           of_each(maxima.replicates, size));
 }
 
 }  // namespace

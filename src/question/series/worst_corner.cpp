@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
+#include "base/lists.hpp"
 #include "base/names.hpp"
 #include "base/on_threads.hpp"
 #include "base/range_check.hpp"
@@ -48,6 +48,11 @@ struct Coordinate {
   Values choices;  ///< to try, rising; empty where the whole range is
 
   double width() const { return range.high - range.low; }
+  /// At a share of the range, or of the choices; below 1.
+  double at(double share) const {
+    if (choices.empty()) return range.low + share * width();
+    return choices[static_cast<std::size_t>(share * static_cast<double>(choices.size()))];
+  }
 };
 
 /// Lots have their values to try; of searched drives other parameters have their ends alone.
@@ -55,8 +60,7 @@ Coordinate coordinate_of(const Distribution& distribution, bool is_searched) {
   Coordinate coordinate{three_sigma_range_of(distribution), {}};
   if (is_searched) coordinate.choices = {coordinate.range.low, coordinate.range.high};
   if (const DiscreteLots* discrete = std::get_if<DiscreteLots>(&distribution)) {
-    coordinate.choices.clear();
-    for (const Lot& lot : discrete->lots) coordinate.choices.push_back(lot.value);
+    coordinate.choices = of_each(discrete->lots, &Lot::value);
     std::sort(coordinate.choices.begin(), coordinate.choices.end());
   }
   return coordinate;
@@ -65,6 +69,11 @@ Coordinate coordinate_of(const Distribution& distribution, bool is_searched) {
 struct Candidate {
   Values values;
   Badness badness;
+
+  /// Takes the place of a worse one.
+  void rise_to(const Candidate& other) {
+    if (badness < other.badness) *this = other;
+  }
 };
 
 /// The share of a searched drive's work is that of its searches; in closed form that of the climbs.
@@ -92,19 +101,18 @@ class Climb {
         answers_(drive, no_target_, search.amplitude, workers, false),
         progress_(progress, answers_),
         shared_(progress_, search.samples + most_corners) {
-    for (const ParameterTolerance& varied : drive.varied) {
-      coordinates_.push_back(coordinate_of(varied.distribution, answers_.are_one_by_one()));
-    }
+    coordinates_ = of_each(drive.varied, [&](const ParameterTolerance& varied) {
+      return coordinate_of(varied.distribution, answers_.are_one_by_one());
+    });
   }
 
   Candidate worst() {
     std::vector<Candidate> starts = worst_of(corners());
-    for (Candidate& sample : worst_of(samples())) starts.push_back(std::move(sample));
+    add_all(starts, worst_of(samples()));
     Candidate worst = starts.front();
     for (std::size_t i = 0; i < starts.size(); ++i) {
       progress_.climbs = static_cast<double>(i) / static_cast<double>(starts.size());
-      Candidate top = climbed(starts[i]);
-      if (worst.badness < top.badness) worst = std::move(top);
+      worst.rise_to(climbed(starts[i]));
     }
     return worst;
   }
@@ -120,9 +128,7 @@ class Climb {
     if (answers_.are_one_by_one() && std::size_t{1} << coordinates_.size() > most_corners) {
       return {};
     }
-    std::vector<Bounds> ranges;
-    for (const Coordinate& coordinate : coordinates_) ranges.push_back(coordinate.range);
-    return corners_of(ranges);
+    return corners_of(of_each(coordinates_, &Coordinate::range));
   }
 
   std::vector<Values> samples() const {
@@ -130,59 +136,47 @@ class Climb {
     const std::size_t width = coordinates_.size();
     Values points(search_.samples * width);
     detail::ShiftedSobol(width, sampling).fill(0, 0, points);
-    std::vector<Values> all;
-    for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(width, 1)) {
-      Values values;
-      for (std::size_t j = 0; j < width; ++j) {
-        const Coordinate& along = coordinates_[j];
-        const double u = points[i + j];
-        const auto choice = static_cast<std::size_t>(u * static_cast<double>(along.choices.size()));
-        values.push_back(along.choices.empty() ? along.range.low + u * along.width()
-                                               : along.choices[choice]);
-      }
-      all.push_back(std::move(values));
-    }
-    return all;
+    return of_each(indices(width > 0 ? search_.samples : 0), [&](std::size_t i) {
+      return of_each(indices(width),
+                     [&](std::size_t j) { return coordinates_[j].at(points[i * width + j]); });
+    });
+  }
+
+  std::vector<Candidate> tried(const std::vector<Values>& all) {
+    const std::vector<Badness> badness = evaluate(all);
+    return of_each(indices(all.size()), [&](std::size_t i) {
+      return Candidate{all[i], badness[i]};
+    });
   }
 
   /// Of searched drives each is answered once: climbs come by corners that are known.
   std::vector<Badness> evaluate(const std::vector<Values>& all) {
     if (!answers_.are_one_by_one()) return answered(all);
-    std::vector<Values> open;
-    for (const Values& one : all) {
-      if (known_.try_emplace(one).second) open.push_back(one);
-    }
+    const std::vector<Values> open =
+        those_of(all, [&](const Values& one) { return known_.try_emplace(one).second; });
     const std::vector<Badness> found = answered(open);
     for (std::size_t i = 0; i < open.size(); ++i) known_[open[i]] = found[i];
-    std::vector<Badness> badness;
-    for (const Values& one : all) badness.push_back(known_.at(one));
-    return badness;
+    return of_each(all, [&](const Values& one) { return known_.at(one); });
   }
 
   std::vector<Badness> answered(const std::vector<Values>& all) {
     if (all.empty()) return {};
     Values values;
-    for (const Values& one : all) values.insert(values.end(), one.begin(), one.end());
+    for (const Values& one : all) add_all(values, one);
     detail::SampleResults results(all.size());
     answers_.fill({.count = all.size(), .fill = rows_of(values, coordinates_.size()).fill}, results,
                   shared_);
     shared_.finish(answers_.are_one_by_one() ? all.size() : 0);
-    std::vector<Badness> badness;
-    for (const detail::SampleResult& result : results) badness.push_back(badness_of(result));
-    return badness;
+    return of_each(results, badness_of);
   }
 
   /// The worst `starts` of them, in falling order.
   std::vector<Candidate> worst_of(const std::vector<Values>& all) {
-    const std::vector<Badness> badness = evaluate(all);
-    std::vector<std::size_t> order(all.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return badness[b] < badness[a]; });
-    std::vector<Candidate> worst;
-    for (std::size_t i = 0; i < std::min(order.size(), search_.starts); ++i) {
-      worst.push_back({all[order[i]], badness[order[i]]});
-    }
+    std::vector<Candidate> worst = tried(all);
+    std::stable_sort(worst.begin(), worst.end(), [](const Candidate& one, const Candidate& other) {
+      return other.badness < one.badness;
+    });
+    if (worst.size() > search_.starts) worst.resize(search_.starts);
     return worst;
   }
 
@@ -212,19 +206,14 @@ class Climb {
   void try_choices(Candidate& top, std::size_t number) {
     std::vector<Values> all(coordinates_[number].choices.size(), top.values);
     for (std::size_t i = 0; i < all.size(); ++i) all[i][number] = coordinates_[number].choices[i];
-    const std::vector<Badness> badness = evaluate(all);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (top.badness < badness[i]) top = {all[i], badness[i]};
-    }
+    for (const Candidate& one : tried(all)) top.rise_to(one);
   }
 
   /// The displacement between two candidates; lots keep their values.
   Values way_from(const Candidate& before, const Candidate& now) const {
-    Values way(coordinates_.size(), 0.0);
-    for (std::size_t i = 0; i < way.size(); ++i) {
-      if (coordinates_[i].choices.empty()) way[i] = now.values[i] - before.values[i];
-    }
-    return way;
+    return of_each(indices(coordinates_.size()), [&](std::size_t i) {
+      return coordinates_[i].choices.empty() ? now.values[i] - before.values[i] : 0.0;
+    });
   }
 
   /// The direction of steepest rise, with each parameter in units of its range. Components that
@@ -274,7 +263,7 @@ class Climb {
 
   /// Zooms in repeatedly on the worst point found.
   void refine_line(Candidate& top, const Values& along, const Bounds& reach) {
-    constexpr int points = 17;
+    constexpr std::size_t points = 17;
     constexpr int most_refinements = 14;
     constexpr int enough_at_end = 6;  // refinements at an end of the line before stopping there
     const Values origin = top.values;
@@ -283,19 +272,19 @@ class Climb {
     int at_end = 0;
     for (int refinement = 0; refinement < most_refinements; ++refinement) {
       const double spacing = (part.high - part.low) / (points - 1);
-      std::vector<Values> all;
-      for (int k = 0; k < points; ++k) {
-        all.push_back(point_of(origin, along, k + 1 < points ? part.low + k * spacing : part.high));
-      }
-      const std::vector<Badness> badness = evaluate(all);
-      const auto [least, worst] = std::minmax_element(badness.begin(), badness.end());
-      if (top.badness < *worst) {
-        const auto k = worst - badness.begin();
-        top = {all[static_cast<std::size_t>(k)], *worst};
-        worst_way = k + 1 < points ? part.low + static_cast<double>(k) * spacing : part.high;
+      const auto way_to = [&](std::size_t k) {
+        return k + 1 < points ? part.low + static_cast<double>(k) * spacing : part.high;
+      };
+      const std::vector<Candidate> all = tried(of_each(
+          indices(points), [&](std::size_t k) { return point_of(origin, along, way_to(k)); }));
+      const auto [least, worst] =
+          std::minmax_element(all.begin(), all.end(), by(&Candidate::badness));
+      if (top.badness < worst->badness) {
+        top = *worst;
+        worst_way = way_to(static_cast<std::size_t>(worst - all.begin()));
       }
       at_end = worst_way == reach.low || worst_way == reach.high ? at_end + 1 : 0;
-      if (!is_notably_worse(top.badness, *least) || at_end == enough_at_end) return;
+      if (!is_notably_worse(top.badness, least->badness) || at_end == enough_at_end) return;
       part = {std::max(reach.low, worst_way - spacing), std::min(reach.high, worst_way + spacing)};
     }
   }

@@ -94,7 +94,7 @@ TEST(Design, TheLeastChangeEndsWhereGrowthAtRestIsOne) {
 
 TEST(Design, AMarginThatIsStoppedSaysSo) {
   test::Stopping impatient;
-  const HuntingMargin margin = margins(sample_servo(), impatient);
+  const HuntingMargin margin = margins(sample_servo(), {}, impatient);
   EXPECT_TRUE(margin.stopped);
   EXPECT_EQ(margin.parameters.size(), 1U);
   EXPECT_TRUE(margin.overall->change);

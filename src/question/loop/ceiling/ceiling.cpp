@@ -1,6 +1,5 @@
 #include "question/loop/ceiling/ceiling.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>

@@ -1,5 +1,6 @@
 // The loop of a continuous controller, x′ = A x + B u: the largest |c x| that |u| ≤ 1 can cause is
 // ∫|c e^{At} B| dt.
+#include "base/lists.hpp"
 #include "numeric/decaying_motion.hpp"
 #include "question/loop/ceiling/loop_gain.hpp"
 
@@ -41,15 +42,12 @@ class ContinuousLoop : public DisturbedLoop {
  private:
   std::vector<double> bounds(const Disturbance& disturbance,
                              const std::vector<const Form*>& outputs) const {
-    std::vector<IntervalVector> rows;
-    for (const Form* output : outputs) rows.push_back(output->of_state);
-    const std::vector<Interval> norms =
-        motion_.impulse_norms(at_once(loop_.slopes, disturbance), rows);
-    std::vector<double> result;
-    for (std::size_t i = 0; i < outputs.size(); ++i) {
-      result.push_back((norms[i] + abs(at_once(*outputs[i], disturbance))).high);
-    }
-    return result;
+    const std::vector<Interval> norms = motion_.impulse_norms(
+        at_once(loop_.slopes, disturbance),
+        of_each(outputs, [](const Form* output) { return output->of_state; }));
+    return of_each(indices(outputs.size()), [&](std::size_t i) {
+      return (norms[i] + abs(at_once(*outputs[i], disturbance))).high;
+    });
   }
   /// |h| ≤ (|h(0)| + ∫|h′|)/2 for every h that tends to 0.
   double peak(const IntervalVector& start, const IntervalVector& output) const {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/lists.hpp"
 #include "base/on_threads.hpp"
 #include "model/parameters.hpp"
 #include "model/reduced_drive.hpp"
@@ -44,7 +45,7 @@ constexpr std::string_view monotone_above_zero[] = {
     "controller.gain"};
 
 bool is_in(std::span<const std::string_view> paths, std::string_view path) {
-  return std::find(paths.begin(), paths.end(), path) != paths.end();
+  return contains(paths, path);
 }
 
 /// Why the side cannot be taken; empty if it can.
@@ -77,17 +78,22 @@ bool have_one_form(const EnclosedDrive& enclosed, const EnclosedDrive& widened) 
 using Sides = std::vector<Bounds>;
 
 std::vector<double> middle_of(const Sides& sides) {
-  std::vector<double> middle;
-  for (const Bounds& side : sides) middle.push_back(middle_of(side));
-  return middle;
+  return of_each(sides, [](const Bounds& side) { return middle_of(side); });
+}
+
+Sides sides_of(const std::vector<double>& point) {
+  return of_each(point, [](double value) { return Bounds{value, value}; });
 }
 
 class Proof {
  public:
   Proof(const Drive& drive, std::span<const BoxSide> box, const CeilingSearch& search,
         Progress& progress)
-      : drive_(drive), box_(box), search_(search), progress_(progress) {
-    for (const BoxSide& side : box) whole_.push_back(side.values);
+      : drive_(drive),
+        box_(box),
+        search_(search),
+        progress_(progress),
+        whole_(of_each(box, &BoxSide::values)) {
     // Each evaluation takes the time of its corners.
     constexpr std::size_t few_corners = 32;
     const std::size_t corners = std::size_t{1} << box.size();
@@ -148,27 +154,17 @@ class Proof {
   }
 
   std::vector<Part> all_evaluated(const std::vector<Sides>& all) {
-    std::vector<Part> parts(all.size());
-    on_threads(0, all.size(), [&](std::size_t i) { parts[i] = evaluated(all[i]); });
     result_.evaluations += all.size();
-    return parts;
+    return of_each_on_threads(all, [&](const Sides& sides) { return evaluated(sides); });
   }
 
   /// The corners and the middle.
   void look_at_single_drives() {
-    std::vector<Sides> points;
-    const auto add = [&](const std::vector<double>& values) {
-      Sides point;
-      for (const double value : values) point.push_back({value, value});
-      points.push_back(std::move(point));
-    };
-    add(middle_of(whole_));
+    std::vector<Sides> points = {sides_of(middle_of(whole_))};
     for (std::size_t corner = 0; corner < std::size_t{1} << whole_.size(); ++corner) {
-      std::vector<double> values;
-      for (std::size_t i = 0; i < whole_.size(); ++i) {
-        values.push_back((corner >> i & 1U) != 0 ? whole_[i].high : whole_[i].low);
-      }
-      add(values);
+      points.push_back(sides_of(of_each(indices(whole_.size()), [&](std::size_t i) {
+        return (corner >> i & 1U) != 0 ? whole_[i].high : whole_[i].low;
+      })));
     }
     for (const Part& part : all_evaluated(points)) {
       if (std::isfinite(part.bound)) {
@@ -192,8 +188,7 @@ class Proof {
       for (const Bounds& side : {Bounds{middle[i] - reach, middle[i] + reach},
                                  Bounds{middle[i] - reach, middle[i] - reach},
                                  Bounds{middle[i] + reach, middle[i] + reach}}) {
-        Sides sides;
-        for (const double value : middle) sides.push_back({value, value});
+        Sides sides = sides_of(middle);
         sides[i] = side;
         wanted.push_back(std::move(sides));
       }
@@ -243,7 +238,7 @@ class Proof {
     const std::size_t count = std::min(at_a_time, parts_.size());
     std::vector<Sides> halves;
     for (std::size_t i = 0; i < count; ++i) {
-      for (Sides& half : halves_of(parts_[i])) halves.push_back(std::move(half));
+      add_all(halves, halves_of(parts_[i]));
     }
     std::vector<Part> parts = all_evaluated(halves);
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -251,9 +246,8 @@ class Proof {
       parts[i].bound = std::min(parts[i].bound, parts_[i / 2].bound);
     }
     parts_.erase(parts_.begin(), parts_.begin() + static_cast<std::ptrdiff_t>(count));
-    parts_.insert(parts_.end(), parts.begin(), parts.end());
-    std::stable_sort(parts_.begin(), parts_.end(),
-                     [](const Part& a, const Part& b) { return a.bound > b.bound; });
+    add_all(parts_, parts);
+    sort_by(parts_, [](const Part& part) { return -part.bound; });
   }
 
   const Drive& drive_;
@@ -284,10 +278,8 @@ std::variant<EnclosedDrive, std::string> enclosed_drive(const Drive& drive,
     if (side.values.low == side.values.high) continue;
     if (std::string reason = obstacle(drive, side); !reason.empty()) return reason;
   }
-  std::vector<Bounds> sides;
-  for (const BoxSide& side : box) sides.push_back(side.values);
   std::optional<EnclosedDrive> all;
-  for (const std::vector<double>& corner : corners_of(sides)) {
+  for (const std::vector<double>& corner : corners_of(of_each(box, &BoxSide::values))) {
     Drive at_corner = drive;
     for (std::size_t i = 0; i < box.size(); ++i) {
       set_on({.path = box[i].path}, at_corner, corner[i]);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/lists.hpp"
 #include "model/linear_drive.hpp"
 #include "numeric/interval_matrix.hpp"
 
@@ -23,9 +24,8 @@ inline Interval at_once(const LinearForm<Interval>& form, const Disturbance& dis
 /// What it adds to each of the forms.
 inline IntervalVector at_once(const std::vector<LinearForm<Interval>>& forms,
                               const Disturbance& disturbance) {
-  IntervalVector sums;
-  for (const LinearForm<Interval>& form : forms) sums.push_back(at_once(form, disturbance));
-  return sums;
+  return of_each(forms,
+                 [&](const LinearForm<Interval>& form) { return at_once(form, disturbance); });
 }
 
 /// Upper bounds per unit of the largest disturbance.

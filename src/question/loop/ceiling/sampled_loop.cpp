@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/lists.hpp"
 #include "model/stepped_drive.hpp"
 #include "numeric/decaying_motion.hpp"
 #include "question/loop/ceiling/loop_gain.hpp"
@@ -113,7 +114,7 @@ bool SampledLoop::prove() {
 Entry SampledLoop::entry(const Disturbance& disturbance) const {
   Entry entry{.disturbance = disturbance, .acting = at_once(plant_.slopes, disturbance)};
   const auto is_nothing = [](const Interval& number) { return is_exactly(number, 0.0); };
-  if (std::all_of(entry.acting.begin(), entry.acting.end(), is_nothing)) entry.acting.clear();
+  if (all_of(entry.acting, is_nothing)) entry.acting.clear();
   return entry;
 }
 
@@ -153,9 +154,7 @@ Spread SampledLoop::spread(const IntervalVector& acting) const {
 
 std::vector<Interval> SampledLoop::norms(const IntervalVector& input,
                                          const std::vector<Form>& forms) const {
-  std::vector<IntervalVector> rows;
-  for (const Form& form : forms) rows.push_back(form.of_state);
-  return motion_->impulse_norms(input, rows);
+  return motion_->impulse_norms(input, of_each(forms, &Form::of_state));
 }
 
 /// The largest |form| of each, but for what acts since the tick.
@@ -206,9 +205,8 @@ SampledLoop::Track SampledLoop::track(const Form& output, const Entry& entry) co
     ends.push_back(combination(output.of_state, segment.ends) + of_torque * segment.torque);
     since_tick_at_ends.push_back(since_tick);
   }
-  track.forms.insert(track.forms.end(), ends.begin(), ends.end());
-  track.since_tick.insert(track.since_tick.end(), since_tick_at_ends.begin(),
-                          since_tick_at_ends.end());
+  add_all(track.forms, ends);
+  add_all(track.since_tick, since_tick_at_ends);
   return track;
 }
 
@@ -238,7 +236,7 @@ LoopGain SampledLoop::gain(const Disturbance& disturbance) {
   std::vector<Track> tracks;
   for (const Form* output : outputs) {
     tracks.push_back(track(*output, entry));
-    forms.insert(forms.end(), tracks.back().forms.begin(), tracks.back().forms.end());
+    add_all(forms, tracks.back().forms);
   }
   const std::vector<Interval> sizes = largest(forms, entry);
   // The gap's speed acts on its acceleration by a slope of its own.

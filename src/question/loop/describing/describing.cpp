@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/lists.hpp"
 #include "base/names.hpp"
 #include "model/rational_function.hpp"
 
@@ -384,8 +385,7 @@ std::vector<DescribingAnalysis> describing_analyses(const ReducedDrive& drive) {
 
 bool is_in_loop(const DescribingAnalysis& analysis) {
   const std::vector<double>& numerator = analysis.loop.numerator;
-  return std::any_of(numerator.begin(), numerator.end(),
-                     [](double coefficient) { return coefficient != 0.0; });
+  return any_of(numerator, [](double coefficient) { return coefficient != 0.0; });
 }
 
 const char* name_of(DescribedPart part) {

@@ -7,6 +7,7 @@
 
 #include "base/bracketed_root.hpp"
 #include "base/extent.hpp"
+#include "base/lists.hpp"
 
 namespace gearlash {
 namespace {
@@ -294,9 +295,7 @@ HarmonicBalance harmonic_balance(const Nonlinearity& nonlinearity, const Transfe
                                  const Bounds& frequencies) {
   const Loop whole{nonlinearity, loop, factored(loop)};
   HarmonicBalance found = search(whole, between_undamped_modes(whole.factors, frequencies));
-  std::sort(
-      found.cycles.begin(), found.cycles.end(),
-      [](const PredictedCycle& a, const PredictedCycle& b) { return a.amplitude < b.amplitude; });
+  sort_by(found.cycles, &PredictedCycle::amplitude);
   return found;
 }
 

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/lists.hpp"
 #include "base/special_numbers.hpp"
 #include "model/controller.hpp"
 #include "numeric/elimination.hpp"
@@ -68,12 +69,11 @@ std::optional<StandingRequests> standing_requests(const ReducedDrive& drive, dou
   for (const auto& solution : all->directions.colwise()) {
     const Vector2d direction = seen(VectorXd(solution));
     if (direction.isZero(0.0)) continue;
-    const bool is_new =
-        std::all_of(requests.directions.begin(), requests.directions.end(), [&](const auto& known) {
-          const double area = known[0] * direction[1] - known[1] * direction[0];
-          return std::abs(area) >
-                 parallel * (std::abs(known[0] * direction[1]) + std::abs(known[1] * direction[0]));
-        });
+    const bool is_new = all_of(requests.directions, [&](const auto& known) {
+      const double area = known[0] * direction[1] - known[1] * direction[0];
+      return std::abs(area) >
+             parallel * (std::abs(known[0] * direction[1]) + std::abs(known[1] * direction[0]));
+    });
     if (is_new) requests.directions.push_back(direction);
   }
   return requests;
@@ -218,15 +218,15 @@ class Equilibria {
   }
 
   void merge(RestKind kind, double side) {
-    const auto piece = std::find_if(pieces_.begin(), pieces_.end(), [&](const RestPiece& one) {
+    const auto is_alike = [&](const RestPiece& one) {
       return one.kind == kind && one.side == side;
-    });
-    if (piece == pieces_.end()) {
+    };
+    if (RestPiece* piece = first_of(pieces_, is_alike)) {
+      widen(piece->load, load_);
+      widen(piece->motor, motor_);
+    } else {
       pieces_.push_back({kind, side, load_, motor_});
-      return;
     }
-    widen(piece->load, load_);
-    widen(piece->motor, motor_);
   }
 
   /// With the error's branch between reading and controller. Empty if nothing stands on it.
@@ -244,12 +244,12 @@ class Equilibria {
     const double off = received - requests.one[0];
     const Vector2d any_reading(1.0, 0.0);
     read.directions = {any_reading};
-    for (const Vector2d& direction : requests.directions) {
-      if (direction[0] == 0.0) read.directions = {any_reading, Vector2d(0.0, 1.0)};
+    if (any_of(requests.directions, [](const Vector2d& one) { return one[0] == 0.0; })) {
+      read.directions.emplace_back(0.0, 1.0);
     }
-    const auto moves = std::find_if(requests.directions.begin(), requests.directions.end(),
-                                    [](const Vector2d& one) { return one[0] != 0.0; });
-    if (moves != requests.directions.end()) {
+    const Vector2d* moves =
+        first_of(requests.directions, [](const Vector2d& one) { return one[0] != 0.0; });
+    if (moves != nullptr) {
       read.one[1] += off / (*moves)[0] * (*moves)[1];
     } else if (std::abs(off) > rounding * (std::abs(received) + std::abs(requests.one[0]))) {
       return std::nullopt;
@@ -408,7 +408,7 @@ std::vector<RestPiece> computed_rest(const ReducedDrive& drive) {
   const auto* load_torque = std::get_if<double>(&drive.load_torque);
   if (reference == nullptr || load_torque == nullptr || !drive.feedforward.is_absent()) return {};
   std::vector<RestPiece> pieces = Equilibria(drive, *reference, *load_torque).pieces();
-  const bool have_ends = std::all_of(pieces.begin(), pieces.end(), [](const RestPiece& piece) {
+  const bool have_ends = all_of(pieces, [](const RestPiece& piece) {
     return piece.load.low > -0.5 * endless && piece.load.high < 0.5 * endless;
   });
   if (!have_ends) pieces.clear();
