@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <functional>
 #include <iterator>
-#include <numeric>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -87,7 +86,7 @@ void sort_by(List& list, const Key& key) {
 /// 0, 1, …, count − 1.
 inline std::vector<std::size_t> indices(std::size_t count) {
   std::vector<std::size_t> all(count);
-  std::iota(all.begin(), all.end(), std::size_t{0});
+  for (std::size_t i = 0; i < count; ++i) all[i] = i;
   return all;
 }
 

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "base/lists.hpp"
-#include "base/special_numbers.hpp"
 #include "closed_form/trajectory.hpp"
 #include "numeric/linear_algebra.hpp"
 
