@@ -55,7 +55,7 @@ TEST(SearchTolerances, RunningAway) {
   EXPECT_EQ(find_attractors(hunting, options).count(MotionEnd::diverges), 2U);
 }
 
-/// Periods that scatter by a half of their mean, over 50 of them.
+/// 100 swings in 100 s, with this mean period from middle to middle.
 SteadyMotion scattering(double period) {
   SteadyMotion motion;
   motion.ranges.resize(static_cast<std::size_t>(search_setting(hunting).own));
@@ -63,27 +63,28 @@ SteadyMotion scattering(double period) {
   IrregularFound& found = motion.found;
   found.amplitude = found.motor_amplitude = found.half_swing = 1.0;
   found.period = period;
-  found.period_deviation = 0.5 * period;
-  found.watched = 50.0 * period;
+  found.watched = 100.0;
   found.swings = 100;
   return motion;
 }
 
-TEST(SearchTolerances, PeriodsThatDifferByChanceAreThoseOfOneMotion) {
+TEST(SearchTolerances, SwingsThatTakeAsLongAreThoseOfOneMotion) {
   const SearchSetting setting = search_setting(hunting);
-  const IrregularTolerances tolerances;
+  IrregularTolerances tolerances;
   const auto are_one = [&](const SteadyMotion& one, const SteadyMotion& other) {
     return is_same(one, other, setting, tolerances);
   };
-  // 1.96 standard errors of the difference: 1.96 * 0.5 * sqrt(2 / 50) = 0.196.
-  EXPECT_TRUE(are_one(scattering(1.0), scattering(1.17)));
-  EXPECT_FALSE(are_one(scattering(1.0), scattering(1.3)));
-  SteadyMotion regular = scattering(1.0);
-  SteadyMotion slower = scattering(1.17);
-  regular.found.period_deviation = slower.found.period_deviation = 0.0;
-  EXPECT_FALSE(are_one(regular, slower));
-  slower.found.period = not_a_number;
-  EXPECT_FALSE(are_one(regular, slower));
+  EXPECT_TRUE(are_one(scattering(2.0), scattering(2.05)));
+  SteadyMotion other = scattering(3.0);
+  EXPECT_FALSE(are_one(scattering(2.0), other));
+  tolerances.pace_suffices = true;
+  EXPECT_TRUE(are_one(scattering(2.0), other));
+  other.found.watched = 104.0;
+  EXPECT_FALSE(are_one(scattering(2.0), other));
+  SteadyMotion few = scattering(3.0);
+  few.found.swings = 30;
+  few.found.watched = 30.0;
+  EXPECT_FALSE(are_one(scattering(2.0), few));
 }
 
 /// What a load did that swung about 0 with these amplitudes.

@@ -209,13 +209,19 @@ bool is_alike(const IrregularFound& one, const IrregularFound& other, const Sear
   const double share = std::min(one.swings, other.swings) < tolerances.enough_swings
                            ? tolerances.error_of_means
                            : tolerances.steady_statistics;
-  const double apart = (one.is_motor_alone ? tolerances.same_ranges : share) * other.period;
-  return one.is_motor_alone == other.is_motor_alone &&
+  const auto time_of_swing = [](const IrregularFound& found) {
+    return found.watched / static_cast<double>(found.swings);
+  };
+  const bool may_count =
+      tolerances.pace_suffices && std::min(one.swings, other.swings) >= tolerances.enough_swings;
+  const bool has_same_pace =
+      agree(one.period, other.period, other.period,
+            one.is_motor_alone ? tolerances.same_ranges : share) ||
+      (may_count && agree(time_of_swing(one), time_of_swing(other), time_of_swing(other), share));
+  return one.is_motor_alone == other.is_motor_alone && has_same_pace &&
          same(one.amplitude, other.amplitude, tolerances.same_ranges) &&
          same(one.motor_amplitude, other.motor_amplitude, tolerances.same_ranges) &&
-         same(one.half_swing, other.half_swing, share) &&
-         agree(one.period, other.period, 1.0,
-               apart_by_chance(error_of_period(one), error_of_period(other), apart));
+         same(one.half_swing, other.half_swing, share);
 }
 
 /// The drive's own numbers. In place positions go along with the reference.

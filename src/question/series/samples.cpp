@@ -39,7 +39,8 @@ std::vector<std::size_t> chain_of(std::span<const double> values, std::size_t co
 
 /// A slow start may lead to rest, which does not matter where another hunts, unless the target asks
 /// for rest. It is not watched for long then, and a few that stay undecided are enough. Of
-/// irregular motion the amplitude counts: a decay that does not change it much may stay hidden.
+/// irregular motion the amplitude counts: a decay that does not change it much may stay hidden, and
+/// it may be steady before its mean period is.
 /// Where a neighbour's motions lead into hunting of another kind, that is the sample's.
 SearchScope hurried() {
   constexpr std::size_t few = 3;
@@ -54,7 +55,7 @@ SearchScope hurried() {
                 return search.swings() && search.count(drive::MotionEnd::undecided) >= few;
               },
           .may_hurry = swings,
-          .tolerances = {.irregular = {.hidden_decay = hidden_decay}}};
+          .tolerances = {.irregular = {.pace_suffices = true, .hidden_decay = hidden_decay}}};
 }
 
 }  // namespace
