@@ -101,8 +101,9 @@ struct IrregularTolerances {
   double steady_statistics = 0.03;
   /// ... or to this share of the encoder's step.
   double steady_steps = 0.5;
-  /// Whether, of enough swings, the mean time of a swing may agree in place of the mean period, which
-  /// scatters more where the middle wanders. A middle that still drifts may then stay unnoticed.
+  /// Whether, of enough swings, the mean time of a swing may agree in place of the mean period,
+  /// which scatters more where the middle wanders. A middle that still drifts may then stay
+  /// unnoticed.
   bool pace_suffices = false;
   /// All numbers must then cover the ranges that they covered before, to this share. The period of
   /// a motor that hunts alone, and the extremes of swings that scatter and their middle, may differ
