@@ -112,18 +112,27 @@ TEST(NetcdfFile, IsTheSameHoweverItIsDivided) {
   has_no_room_to_claim = false;
 }
 
-TEST(NetcdfFile, IsReadBackAndByPython) {
-  const Scratch scratch;
-  std::ofstream(scratch / "a.nc") << written_in(5);
-  const test::Outcome run = test::run_shell(
+/// The model of a.nc, an attribute of it and, of each variable `one`, what Python makes of `shown`.
+test::Outcome read_by_python(const Scratch& scratch, const std::string& attribute,
+                             const std::string& shown) {
+  return test::run_shell(
       "/usr/bin/python3 -W ignore -c 'import netCDF4\n"
       "data = netCDF4.Dataset(\"" +
       (scratch / "a.nc").string() +
       "\")\n"
       "data.set_auto_mask(False)\n"
-      "print(data.data_model, data.history)\n"
+      "print(data.data_model, data." +
+      attribute +
+      ")\n"
       "for name, one in data.variables.items():\n"
-      "  print(name, one.dimensions, one[...].tolist())'");
+      "  print(name, " +
+      shown + ")'");
+}
+
+TEST(NetcdfFile, IsReadBackAndByPython) {
+  const Scratch scratch;
+  std::ofstream(scratch / "a.nc") << written_in(5);
+  const test::Outcome run = read_by_python(scratch, "history", "one.dimensions, one[...].tolist()");
   EXPECT_EQ(run.err, "");
   EXPECT_THAT(run.out, HasSubstr("NETCDF3_64BIT_OFFSET gearlash map\n"));
   EXPECT_THAT(run.out, HasSubstr("damping ('damping',) [0.1, 0.2, 0.3]\n"));
@@ -162,14 +171,8 @@ TEST(NetcdfFile, OfVersion5IsReadByPython) {
   const std::vector<std::byte> kinds = {std::byte{2}, std::byte{0}, std::byte{1}};
   file.write("kinds", 0, kinds);
   file.write("one", 0, std::vector{0.125});
-  const test::Outcome run = test::run_shell(
-      "/usr/bin/python3 -W ignore -c 'import netCDF4\n"
-      "data = netCDF4.Dataset(\"" +
-      (scratch / "a.nc").string() +
-      "\")\n"
-      "print(data.data_model, data.title)\n"
-      "for name, one in data.variables.items():\n"
-      "  print(name, one.dtype, one[...].tolist(), one.__dict__)'");
+  const test::Outcome run =
+      read_by_python(scratch, "title", "one.dtype, one[...].tolist(), one.__dict__");
   EXPECT_EQ(run.err, "");
   EXPECT_THAT(run.out, HasSubstr("NETCDF3_64BIT_DATA five\n"));
   EXPECT_THAT(run.out, HasSubstr("x float64 [1.0, 2.0, 4.0] {'valid_min': -1.5}\n"));
