@@ -29,7 +29,6 @@ struct CompareOptions : QuestionOptions {
   std::vector<std::string> files;
   std::string x;
   std::vector<std::string> quantities;
-  std::optional<std::string> step;
   std::optional<std::string> until;
   bool brief = false;
 };
@@ -107,19 +106,10 @@ void read_values(const CompareOptions& options, const std::vector<FileUse>& outp
   task.report.axis = std::move(axis);
 }
 
-double read_step(const std::string& text) {
-  const double step = read_measured("--step", text, dimensions::angle).si;
-  if (step == 0.0) refuse("--step", text, "must be an angle other than 0");
-  return step;
-}
-
 CompareTask read_compare_task(const CompareOptions& options, const std::vector<PlotFile>& plots,
                               Faults& faults) {
   CompareTask task;
   faults.require_choice("--format", options.format, {"text", "json"});
-  if (options.step) {
-    task.how.step = faults.collect([&] { return read_step(*options.step); }, 1.0);
-  }
   if (options.until) task.how.until = read_time("--until", *options.until, faults);
   if (!options.quantities.empty()) {
     task.report.quantities = read_quantities(options.quantities, faults);
@@ -185,9 +175,6 @@ void add_compare_command(const Command& app, Action& action) {
                      "Show these quantities, separated by commas: amplitude, static-error, … "
                      "(docs/reference/command-line.md)",
                      {.delimiter = ',', .takes_one_word = true});
-  command.add_option("--step ANGLE", options.step,
-                     "Set the step of the reference, in rad or with a unit; default ten times the "
-                     "backlash of the first drive, or 1 deg without one");
   command.add_option(
       "--until TIME", options.until,
       "Set the end of the step responses; default twenty periods of each loop, or more "

@@ -86,7 +86,7 @@ ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
   faults.require_none();
 
   LimitedWork work(limits);
-  const Answer answer = analyse(written->drive, {.ceiling = true, .quantization = true},
+  const Answer answer = analyse(written->drive, {.ceiling = true, .causes = true},
                                 TerminalProgress(work, "Searching").as_argument());
   const DescribeReport report =
       describe_report_of(written->drive, answer, written->angle, provenance);

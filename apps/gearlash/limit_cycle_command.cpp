@@ -30,7 +30,6 @@ constexpr char limit_cycle_examples[] =
     "gearbox.backlash,load.inertia,motor.coulomb\n";
 
 struct LimitCycleOptions : QuestionOptions {
-  std::string specification;
   std::string measured;
   bool brief = false;
   bool margins = false;
@@ -88,27 +87,14 @@ void add_margins(Result& result, const Drive& drive, const std::vector<Axis>& ax
   result.report.margin = margins(drive, axes, progress);
 }
 
-/// `specification`: rad, or 0.
-Result analysed(const WrittenDrive& written, double specification, const Provenance& provenance,
-                LimitedWork& work) {
+Result analysed(const WrittenDrive& written, const Provenance& provenance, LimitedWork& work) {
   const Wanted wanted{.ceiling = true,
-                      .quantization = true,
-                      .rest_band = specification,
+                      .causes = true,
                       .motion_bytes = bytes_of_motion(work.limits())};
   Result result{.analysis = analyse_in_full(written.drive, wanted,
                                             TerminalProgress(work, "Searching").as_argument())};
   result.report = report_of(written.drive, result.analysis.answer, written.angle, provenance);
   return result;
-}
-
-std::optional<double> read_specification(const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  constexpr char field[] = "--specification";
-  const double amplitude = read_measured(field, text, dimensions::angle).si;
-  if (!(amplitude > 0.0)) {
-    refuse(field, text, "must be above 0: an amplitude of the load");
-  }
-  return amplitude;
 }
 
 /// "0.2 rad, 0.9 Hz", or with a period: "0.2 rad, 1.1 s".
@@ -145,8 +131,6 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
       read_plots(options.plots, {"phase", "time", "tornado", "ceiling"}, faults);
   const std::optional<WrittenDrive> written = resolve_drive(options.servo, files_of(plots), faults);
   const Limits limits = read_limits(options.limits, faults);
-  const auto specification = faults.collect(
-      [&] { return read_specification(options.specification); }, std::optional<double>());
   const auto measured = faults.collect([&] { return read_hunting(options.measured); },
                                        std::optional<MeasuredHunting>());
   std::vector<Axis> axes;
@@ -154,8 +138,7 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
   faults.require_none();
 
   LimitedWork work(limits);
-  Result result = analysed(*written, specification.value_or(0.0), provenance, work);
-  result.report.specification = specification;
+  Result result = analysed(*written, provenance, work);
   result.report.measured = measured;
   if (options.margins) add_margins(result, written->drive, axes, work);
   if (options.sensitivities || has_kind(plots, "tornado")) {
@@ -181,10 +164,6 @@ void add_limit_cycle_command(const Command& app, Action& action) {
   add_format_option(command, options.format);
   command.add_flag("--brief", options.brief, "Print the headline alone");
   add_limit_options(command, options.limits);
-  command.add_option(
-      "--specification ANGLE", options.specification,
-      "Add the widest backlash that provably keeps the load within this angle of the "
-      "motion without a gap: \"0.5 deg\"");
   command.add_option(
       "--measured AMPLITUDE,FREQUENCY", options.measured,
       "Add how far hunting that was measured at the load, half of its peak to peak and "

@@ -29,6 +29,23 @@ constexpr std::pair<const char*, const char*> number_options[] = {
     {"Set the backlash at the load, face to face, in rad or with a unit: \"12 arcmin\"", "ANGLE"},
     {"Set the restitution: 0 (plastic, the default) to 1 (elastic)", "NUMBER"}};
 
+struct SpecificationOption {
+  const char* name;
+  const char* path;
+  const char* help;
+};
+
+/// They are settings of the drive.
+constexpr SpecificationOption specification_options[] = {
+    {"--specification", "specification.error",
+     "Set the error of the load that is permitted in the end: \"2 arcmin\""},
+    {"--step", "specification.step",
+     "Set the step of the reference whose response is measured; default 1 deg, of a normal form 1 "
+     "rad"},
+    {"--band", "specification.band",
+     "Set the distance within which a motion has settled; default the specification, else a step "
+     "of the encoder at the load, else 1 % of the step"}};
+
 /// Whether the number is one of the ratios that a drive with [motor] has not by itself.
 bool is_ratio(const NormalFormNumber& number) {
   return number.path.starts_with("servo.") && number.path != "servo.backlash";
@@ -83,6 +100,9 @@ std::vector<Setting> settings_of(const ServoOptions& options, Faults& faults) {
   for (const std::string& text : options.settings) {
     faults.collect([&] { return settings.push_back(read_setting(text)), 0; }, 0);
   }
+  for (std::size_t i = 0; i < options.asked.size(); ++i) {
+    if (options.asked[i]) settings.push_back({specification_options[i].path, *options.asked[i]});
+  }
   return settings;
 }
 
@@ -103,6 +123,11 @@ void add_drive_options(const Command& command, ServoOptions& options,
     command.add_option(name, options.numbers[i], help, {.group = servo_group});
   }
   command.add_option("--sensor SHAFT", options.sensor, sensor_help, {.group = servo_group});
+  for (std::size_t i = 0; i < options.asked.size(); ++i) {
+    const SpecificationOption& option = specification_options[i];
+    command.add_option(std::string(option.name) + " ANGLE", options.asked[i], option.help,
+                       {.group = servo_group});
+  }
   add_set_option(command, options);
 }
 

@@ -27,6 +27,8 @@ struct ServoOptions {
   std::array<std::optional<std::string>, normal_form_numbers.size()> numbers;
   std::optional<std::string> sensor;
   std::vector<std::string> settings;  ///< of --set
+  /// Of what is asked of the drive, as specification_options.
+  std::array<std::optional<std::string>, 3> asked;
 
   std::optional<std::string>& backlash() {
     static_assert(normal_form_numbers[3].path == "servo.backlash");

@@ -18,17 +18,14 @@ struct Wanted {
   bool ceiling = false;
   /// The linear loop: Answer::loop, bandwidth and phase margin.
   bool loop = false;
-  /// rad: the response to a step of this size, for twenty swings of the linear loop: Answer::step.
-  /// It takes some milliseconds.
-  std::optional<double> step{};
+  /// The response to Specification::step, for twenty swings of the linear loop: Answer::step. It
+  /// takes some milliseconds.
+  bool step = false;
   /// What lies between starts that end differently: unstable cycles, and from which step on a drive
   /// hunts (Answer::thresholds). The verdict does not need it.
   bool borders = true;
-  /// Answer::is_quantization: a second search where a drive hunts by a few encoder steps.
-  bool quantization = false;
-  /// rad: a start has come to rest when the load stays as near as this to its final position
-  /// (Rest::time): the specification. 0: half an encoder step, else 1 % of the backlash.
-  double rest_band = 0.0;
+  /// Answer::without and Answer::is_quantization: from a few starts each, searches without causes.
+  bool causes = false;
   /// Bytes that a search keeps of a motion at most, but for its last thousand steps. It takes some
   /// two to three times as many in all.
   std::size_t motion_bytes = 64'000'000;

@@ -57,13 +57,23 @@ enum class Stability : std::uint8_t {
 /// Which engine answered.
 enum class Engine : std::uint8_t { closed_form, general };
 
-/// Energy lost in a period, J. The loop feeds in the same amount.
-struct EnergyLost {
-  double motor_friction = 0.0;  ///< J, in the motor's friction
-  double load_friction = 0.0;   ///< J, in the load's friction
-  double impacts = 0.0;         ///< J
+/// The balance of a period, J: what feeds the motion, and what is lost. What the motor feeds is its
+/// torque's work on its shaft, braking counted negative.
+struct EnergyBalance {
+  double motor = 0.0;               ///< J, fed by the motor; its back-EMF is friction
+  double load_torque = 0.0;         ///< J, fed by a torque on the load
+  double motor_friction = 0.0;      ///< J, lost in the motor's viscous friction
+  double load_friction = 0.0;       ///< J, lost in the load's viscous friction
+  double motor_dry_friction = 0.0;  ///< J, lost in the motor's dry friction
+  double load_dry_friction = 0.0;   ///< J, lost in the load's dry friction
+  double impacts = 0.0;             ///< J, lost where rigid faces meet
+  double contact_damping = 0.0;     ///< J, lost in compliant faces
 
-  [[nodiscard]] double total() const { return motor_friction + load_friction + impacts; }  ///< J
+  [[nodiscard]] double fed() const { return motor + load_torque; }  ///< J
+  [[nodiscard]] double lost() const {                               ///< J
+    return motor_friction + load_friction + motor_dry_friction + load_dry_friction + impacts +
+           contact_damping;
+  }
 };
 
 struct Cycle {
@@ -73,6 +83,7 @@ struct Cycle {
   double amplitude = 0.0;                     ///< rad, half the peak-to-peak of the load
   double motor_amplitude = 0.0;               ///< rad, of the motor, referred to the load's shaft
   double center = 0.0;        ///< rad, mean of the load's extremes, from the reference
+  double error = 0.0;         ///< rad, largest |reference − load|
   double period = 0.0;        ///< s
   double multiplier = 0.0;    ///< Floquet's, the largest modulus over a period
   double residual = 0.0;      ///< mismatch of the state after one period, as a share
@@ -87,7 +98,7 @@ struct Cycle {
   bool has_mirror_image = false;      ///< the mirror image counts as this cycle
   bool settles = false;    ///< bounces settle before each separation, or contact is plastic
   std::size_t starts = 0;  ///< starts of a search that led here
-  std::optional<EnergyLost> energy{};  ///< J a period; empty where the inertias are not known
+  std::optional<EnergyBalance> energy{};  ///< J a period; empty where the inertias are not known
   /// Peak to peak of the measured position, in steps of its encoder, if it has one.
   std::optional<double> encoder_steps{};
 
@@ -111,7 +122,7 @@ struct RestPiece {
 /// How long starts of a search took to rest: until the load stayed within `band` of its final
 /// position, by its law where it approaches that ever more slowly.
 struct TimeToRest {
-  double band = 0.0;     ///< rad: the specification, else half an encoder step, else 1 % of the gap
+  double band = 0.0;     ///< rad: see Specification::band
   double longest = 0.0;  ///< s
   double median = 0.0;   ///< s; the mean of the two middle ones of an even number
 };
@@ -142,6 +153,8 @@ struct IrregularMotion {
   double amplitude = 0.0;                   ///< rad, half the peak-to-peak of the load
   std::optional<double> motor_amplitude{};  ///< rad
   double center = 0.0;                      ///< rad, of the load, from the reference
+  /// rad: |reference − load| is larger for 0.1 % of `watched`. In closed form the largest.
+  double error = 0.0;
   bool is_motor_alone = false;  ///< the motor moves within the gap, the load hardly moves
   /// rad, half of extreme to extreme; of the motor if it moves alone.
   std::optional<double> mean_amplitude{};
@@ -204,6 +217,7 @@ struct RunAway {
 struct SearchRecord {
   /// s: the longest that a start is followed, unless hardly anything happens or it stands still.
   double watch_time = 0.0;
+  double reference = 0.0;              ///< rad, from which the starts are displaced
   bool is_complete = true;             ///< not stopped
   std::size_t borders = 0;             ///< searched between starts with different outcomes
   std::vector<StartOutcome> starts{};  ///< in the order in which they were followed
@@ -301,6 +315,13 @@ struct LinearLoop {
   /// rad: the least, of all frequencies at which the loop has the gain 1, by which it may turn.
   std::optional<double> phase_margin{};
   std::optional<double> crossover{};  ///< Hz: the frequency of this margin
+  /// The factor, next to 1 as a ratio, by which the loop's gain may grow or must fall until the loop
+  /// is at the border of stability. Below 1 it is one by which the gain may fall.
+  std::optional<double> gain_margin{};
+  std::optional<double> phase_crossover{};  ///< Hz: the frequency of this margin
+  /// rad: the largest |reference − load| in the end of a reference that moves, a ramp or a sine.
+  /// Empty of one that stands still, and where it grows without bound.
+  std::optional<double> lag{};
 };
 
 /// The load's response to a step of the reference, from rest at 0 with the faces in contact on the
@@ -313,7 +334,7 @@ struct StepResponse {
   std::optional<double> overshoot{};  ///< as a share of the step; empty unless `is_whole`
   /// s: the last time outside `band`. Empty unless it stays there for the whole last fifth.
   std::optional<double> settling_time{};
-  double band = 0.0;         ///< rad, about the reference: 5 % of the step
+  double band = 0.0;         ///< rad, about the reference: see Specification::band
   double final_error = 0.0;  ///< rad, reference less load, mean of the last fifth's extremes
   double ripple = 0.0;       ///< rad, half the distance of these extremes
   bool is_whole = false;     ///< the motion could be followed to its end
@@ -323,6 +344,23 @@ struct StepResponse {
 struct Note {
   std::string code{};  ///< one word
   std::string text{};  ///< a sentence or more
+};
+
+/// What may be taken away from a drive to find what its motion in the end is due to.
+enum class Cause : std::uint8_t {
+  gap,
+  dry_friction,     ///< of both shafts
+  integral_action,  ///< of the controller
+  delay,            ///< of a sampled controller
+  encoder,          ///< its steps
+  load_torque       ///< and gravity
+};
+
+/// The same drive without one of them.
+struct Without {
+  Cause cause = Cause::gap;                ///< what is taken away
+  Verdict verdict = Verdict::undecided;    ///< of the starts that told of the drive's own
+  std::optional<double> error{};           ///< rad, Quantity::error of it; empty if unknown
 };
 
 struct Answer {
@@ -350,6 +388,7 @@ struct Answer {
   /// Of a search beside which the drive also rests, or stays bounded: on the grid of its steps, and
   /// then bisected. A step between those of the grid may lead elsewhere.
   std::vector<Threshold> thresholds{};
+  std::vector<Without> without{};  ///< if wanted: each cause that the drive has
   std::optional<SearchRecord> search{};  ///< empty in closed form
   std::vector<Note> notes{};             ///< what a reader should know
 
@@ -376,6 +415,8 @@ struct Answer {
 [[nodiscard]] const char* name_of(Stability stability);
 /// "no limit", "dead band", "torque limit".
 [[nodiscard]] const char* name_of(RestKind kind);
+/// "gap", "dry friction", "integral action", "delay", "encoder", "load torque".
+[[nodiscard]] const char* name_of(Cause cause);
 /// "closed form", "general".
 [[nodiscard]] const char* name_of(Engine engine);
 

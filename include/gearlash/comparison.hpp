@@ -21,7 +21,7 @@ struct NamedDrive {
 };
 
 struct ComparisonOptions {
-  /// rad, of the reference, other than 0; default ten backlashes of the first drive, or 1° without.
+  /// rad, of the reference, other than 0; default that of the first drive.
   std::optional<double> step{};
   /// s, > 0; default twenty swings of each drive's own loop, or as many as the load needs to rise.
   std::optional<double> until{};

@@ -45,14 +45,19 @@ struct PID {
   bool operator==(const PID&) const = default;
 };
 
-/// A speed controller within a position controller: w = position e, f = 1/(filter s + 1) v,
-/// speed (w − f) + speed_integral ∫(w − f) dt.
+/// A speed controller within a position controller: with the speed ṙ of the reference,
+/// w = position e + speed_feedforward ṙ, at most speed_limit of either sign,
+/// f = 1/(filter s + 1) v,
+/// speed (w − f) + speed_integral ∫(w − f) dt + acceleration_feedforward r̈.
 struct CascadeController {
   double position = 0.0;        ///< 1/s
   double speed = 0.0;           ///< output s/rad
   double speed_integral = 0.0;  ///< output/rad
   double tracking_time = 0.0;   ///< s, ≥ 0, as above
   double filter = 0.0;          ///< s, ≥ 0; of the measured speed
+  std::optional<double> speed_limit{};   ///< rad/s, > 0, of the speed that is asked for
+  double speed_feedforward = 0.0;        ///< share of the reference's speed, 0 … 1
+  double acceleration_feedforward = 0.0;  ///< output s²/rad, ≥ 0
 
   bool operator==(const CascadeController&) const = default;
 };
@@ -174,6 +179,9 @@ struct Sampling {
   double period = 0.0;                             ///< s, > 0
   double delay = 0.0;                              ///< s, 0 … 100 periods
   Discretization method = Discretization::tustin;  ///< of integral, derivative and filters
+  /// s: of the position controller of a cascade, a whole multiple of `period`, which is then that
+  /// of its speed controller. If not given they are the same.
+  std::optional<double> position_period{};
   /// The measured speed is the difference of two positions divided by the period; else a
   /// tachometer's.
   bool speed_by_differences = true;

@@ -44,6 +44,9 @@ struct TwoPhase {
 struct TorqueControl {
   /// N m/A, > 0. It turns currents of the motor into torques.
   std::optional<double> torque_constant{};
+  /// rad/s, > 0, of the closed loop of the current, whose response is a lag of the first order:
+  /// 1/(s/current_bandwidth + 1). The torque follows at once if not given.
+  std::optional<double> current_bandwidth{};
 
   bool operator==(const TorqueControl&) const = default;
 };
@@ -156,6 +159,18 @@ struct Sensor {
   bool operator==(const Sensor&) const = default;
 };
 
+/// What is asked of a drive. It changes no motion.
+struct Specification {
+  std::optional<double> error{};  ///< rad, > 0: the largest |reference − load| in the end
+  std::optional<double> step{};   ///< rad, not 0: of the step response; 1° if not given
+  /// rad, > 0: within which a motion has settled, about the reference after a step, about its final
+  /// position at rest. If not given: `error`; else one step of the position's encoder, at the
+  /// load's shaft; else 1 % of the step.
+  std::optional<double> band{};
+
+  bool operator==(const Specification&) const = default;
+};
+
 /// The servo reduced to the numbers that decide whether it hunts: proportional control of the
 /// load's position. It replaces motor, gearbox, load and controller, with J_M + J_L = 1 kg m².
 struct NormalForm {
@@ -180,6 +195,7 @@ struct Drive {
   std::optional<Sampling> sampling{};   ///< without it the controller is continuous
   std::optional<Signal> reference{};    ///< rad; 0 if not given
   std::optional<Signal> load_torque{};  ///< N m, on the load, forward; 0 if not given
+  Specification specification{};        ///< what is asked of it
   /// Numbers of the normal form, or of a controller's lists, stand for others that they were
   /// rounded from: decimals with more digits than a double keeps, fractions without a short
   /// decimal, results of a computation. Proofs then hold for all numbers nearby. Else each stands

@@ -28,7 +28,7 @@ using Written = std::vector<std::string>;
 
 Written described(Progress& reports, const Drive& drive) {
   const DescribeReport report =
-      describe_report_of(drive, analyse(drive, {.ceiling = true, .quantization = true}, reports));
+      describe_report_of(drive, analyse(drive, {.ceiling = true, .causes = true}, reports));
   return {describe_json(report), describe_text(report)};
 }
 

@@ -16,7 +16,7 @@ Progress = Optional[Callable[[float], Optional[bool]]]
 
 
 def analyse(drive: Drive, *, proofs: bool = True, ceiling: bool = True, loop: bool = False,
-            step: float | None = None, borders: bool = True, quantization: bool = True,
+            step: bool = False, borders: bool = True, causes: bool = True,
             motion_bytes: int | None = None, progress: Progress = None) -> Answer:
     """Report whether a drive hunts, how large and fast, and how certain that is.
 
@@ -31,14 +31,15 @@ def analyse(drive: Drive, *, proofs: bool = True, ceiling: bool = True, loop: bo
     ceiling : bool
         Add the proved bound of every motion.
     loop : bool
-        Add bandwidth and phase margin of the linear loop.
-    step : float, optional
-        rad: add the response to a step of the reference of this size.
+        Add bandwidth, margins and lag of the linear loop.
+    step : bool
+        Add the response to a step of the reference, of the size of ``specification.step``.
     borders : bool
         Search what lies between starts that end differently: unstable cycles, and from which step
         on a drive hunts.
-    quantization : bool
-        Where a drive hunts by a few encoder steps, search once more without the encoder's steps.
+    causes : bool
+        Search once more without gap, dry friction, integral action, delay, encoder and load torque,
+        each by itself: ``without`` and ``is_quantization``.
     motion_bytes : int, optional
         That a search keeps of a motion at most, but for its last thousand steps; default 64,000,000.
         It takes two to three times as many in all.
@@ -72,7 +73,7 @@ def analyse(drive: Drive, *, proofs: bool = True, ceiling: bool = True, loop: bo
     (0.241611108, 6.456205)
     """
     wanted = Wanted(proofs=proofs, ceiling=ceiling, loop=loop, step=step, borders=borders,
-                    quantization=quantization, **where_given(motion_bytes=motion_bytes))
+                    causes=causes, **where_given(motion_bytes=motion_bytes))
     return dataclasses.replace(_core.analyse(drive, wanted, progress), drive=drive)
 
 

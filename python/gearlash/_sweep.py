@@ -218,7 +218,7 @@ def compare(drives: Drive | Mapping[str, Drive],
     quantities : sequence of str
         Names of :func:`gearlash.quantities`; default those that ``gearlash compare`` shows.
     step : float, optional
-        rad, of the reference; default ten times the backlash of the first drive, or 1 deg without.
+        rad, of the reference; default that of the first drive: ``specification.step``.
     until : float, optional
         s, the end of the step responses; default twenty periods of each loop, or more where the load
         needs longer to rise.

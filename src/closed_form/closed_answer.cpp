@@ -17,6 +17,7 @@ Cycle cycle_of(const LimitCycle& found, Certainty certainty, double time_unit,
   cycle.stability = found.stable ? Stability::stable : Stability::unstable;
   cycle.certainty = certainty;
   cycle.amplitude = found.amplitude;
+  cycle.error = found.amplitude;
   cycle.motor_amplitude = found.motor_amplitude;
   cycle.period = found.period * time_unit;
   cycle.multiplier = found.multiplier;
@@ -29,8 +30,10 @@ Cycle cycle_of(const LimitCycle& found, Certainty certainty, double time_unit,
   if (stiffness) cycle.mesh_torque = found.mesh_torque * *stiffness;
   if (stiffness && !std::isnan(found.energy.total())) {
     const double unit = *stiffness;
-    cycle.energy = EnergyLost{found.energy.motor_friction * unit, found.energy.load_friction * unit,
-                              found.energy.impacts * unit};
+    cycle.energy = EnergyBalance{.motor = found.energy.total() * unit,
+                                 .motor_friction = found.energy.motor_friction * unit,
+                                 .load_friction = found.energy.load_friction * unit,
+                                 .impacts = found.energy.impacts * unit};
   }
   return cycle;
 }
@@ -97,7 +100,7 @@ Answer answer_of(const LimitCycleAnalysis& analysis, const ProportionalServo& se
     answer.cycles.push_back(cycle_of(cycle, of_cycles, time_unit, servo.stiffness));
   }
   if (const auto amplitude = known(analysis.irregular_amplitude)) {
-    answer.irregular.push_back({.amplitude = *amplitude});
+    answer.irregular.push_back({.amplitude = *amplitude, .error = *amplitude});
   }
   return answer;
 }

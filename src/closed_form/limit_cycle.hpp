@@ -14,6 +14,15 @@
 
 namespace gearlash {
 
+/// Energy lost in a period; NaN where not computed.
+struct EnergyLost {
+  double motor_friction = std::numeric_limits<double>::quiet_NaN();
+  double load_friction = std::numeric_limits<double>::quiet_NaN();
+  double impacts = std::numeric_limits<double>::quiet_NaN();
+
+  double total() const { return motor_friction + load_friction + impacts; }
+};
+
 /// Times in units of 1/ω_n, angles in rad at the load shaft. NaN where not computed.
 struct LimitCycle {
   CycleKind kind = CycleKind::symmetric;
@@ -34,7 +43,7 @@ struct LimitCycle {
   int traversals = 1;  ///< of the gap, after which it repeats (mirrored if they are odd)
   std::size_t impacts_per_period = 0;  ///< impacts counted one by one; a settling adds none more
   bool settles = false;                ///< bounces settle (or are plastic) before each separation
-  EnergyLost energy{not_a_number, not_a_number, not_a_number};  ///< a period, units of K rad²
+  EnergyLost energy{};  ///< a period, units of K rad²
   ServoState start;  ///< a state on the cycle, about reference 0: as the faces part forward
                      ///< (plastic contact), or just after an impact on the forward face
 };

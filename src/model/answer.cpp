@@ -84,6 +84,12 @@ const char* name_of(RestKind kind) {
   return names[kind];
 }
 
+const char* name_of(Cause cause) {
+  constexpr Names<Cause::load_torque> names("gap", "dry friction", "integral action", "delay",
+                                            "encoder", "load torque");
+  return names[cause];
+}
+
 const char* name_of(Engine engine) { return engine == Engine::general ? "general" : "closed form"; }
 
 }  // namespace gearlash

@@ -24,7 +24,8 @@ std::vector<Parameter> mechanical_parameters();  ///< servo, motor, gearbox, loa
 std::vector<Parameter> control_parameters();     ///< sensor, controller, sampling
 std::vector<Parameter> firmware_parameters();    ///< the controller's registers
 std::vector<Parameter> nonlinear_parameters();   ///< of the controller, among the former
-std::vector<Parameter> signal_parameters();      ///< reference, load_torque
+std::vector<Parameter> signal_parameters();      ///< reference, load_torque,
+                                                 ///< specification
 
 /// Gives the drive the firmware with that index of all_firmwares(), all registers at their
 /// defaults, and its sampling where the manual states it and the drive has none.

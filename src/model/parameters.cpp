@@ -68,7 +68,8 @@ const std::vector<Section>& all_sections() {
        [](Drive& drive) { drive.reference.emplace(0.0); }},
       {"load_torque", "with a kind",
        [](const Drive& drive) { return drive.load_torque.has_value(); },
-       [](Drive& drive) { drive.load_torque.emplace(0.0); }}};
+       [](Drive& drive) { drive.load_torque.emplace(0.0); }},
+      {"specification", "with error, step or band", always, nothing}};
   return all;
 }
 

@@ -107,6 +107,7 @@ std::optional<Drive> normal_form_of(const Drive& drive) {
   Drive form = normal_form(servo.damping, servo.inertia_ratio, servo.friction_ratio, servo.backlash,
                            servo.restitution);
   form.servo->natural_frequency = found->natural_frequency;
+  form.specification = drive.specification;
   form.is_rounded = drive.is_rounded || !found->is_as_given;
   return form;
 }

@@ -9,6 +9,7 @@
 
 #include "base/lists.hpp"
 #include "base/member_path.hpp"
+#include "base/special_numbers.hpp"
 
 namespace gearlash {
 namespace quantity_rows {
@@ -70,6 +71,72 @@ Value static_error(const Answer& answer) {
   return std::max(std::abs(answer.rest->error.low), std::abs(answer.rest->error.high));
 }
 
+Value larger(const Value& a, const Value& b) {
+  return a && b ? Value(std::max(*a, *b)) : std::nullopt;
+}
+
+/// The error in the end of a start.
+Value error_of(const StartOutcome& start, const Answer& answer) {
+  if (start.end == "diverges") return infinity;
+  if (start.end == "rest") return static_error(answer);
+  if (!start.which) return std::nullopt;
+  if (start.end == "cycle") return answer.cycles[*start.which].error;
+  return answer.irregular[*start.which].error;
+}
+
+/// Likewise without a search: the drive rests, or hunts.
+Value error_in_closed_form(const Answer& answer, bool is_disturbed) {
+  switch (answer.verdict) {
+    case Verdict::cannot_hunt:
+    case Verdict::comes_to_rest:
+      return static_error(answer);
+    case Verdict::hunts_if_disturbed:
+      if (!is_disturbed) return static_error(answer);
+      break;
+    case Verdict::hunts:
+    case Verdict::hunts_irregularly:
+      break;
+    case Verdict::grows_without_bound:
+      return infinity;
+    default:
+      return std::nullopt;
+  }
+  Value error = motion_value<&Cycle::error, &IrregularMotion::error>(answer);
+  if (error && answer.rest) error = larger(error, static_error(answer));
+  return error;
+}
+
+/// Where the smallest displacements of both shafts lead.
+Value error(const Answer& answer) {
+  if (!answer.search) return error_in_closed_form(answer, false);
+  double least = infinity;
+  const auto offset = [&](const StartOutcome& start) {
+    return std::abs(start.load_position - answer.search->reference);
+  };
+  for (const StartOutcome& start : answer.search->starts) {
+    if (offset(start) > 0.0) least = std::min(least, offset(start));
+  }
+  constexpr double same = 1.0 + 1e-9;
+  Value largest = std::isinf(least) ? std::nullopt : Value(0.0);
+  for (const StartOutcome& start : answer.search->starts) {
+    if (offset(start) <= 0.0 || offset(start) > same * least) continue;
+    largest = larger(largest, error_of(start, answer));
+  }
+  return largest;
+}
+
+/// Where any start leads.
+Value error_if_disturbed(const Answer& answer) {
+  if (!answer.search) return error_in_closed_form(answer, true);
+  if (!answer.search->is_complete || answer.search->starts.empty()) return std::nullopt;
+  Value largest = 0.0;
+  for (const StartOutcome& start : answer.search->starts) {
+    if (start.end == "diverges") return infinity;
+    largest = larger(largest, error_of(start, answer));
+  }
+  return largest;
+}
+
 // ---- the list -----------------------------------------------------------------------------------
 
 struct Unit {
@@ -126,17 +193,22 @@ constexpr std::array entries = {
           "time per period with the faces apart", cycle_value<&Cycle::separated_time>),
     entry(Quantity::motor_friction_loss, "motor_friction_loss", joule, motion,
           "energy lost in the motor's friction over a period",
-          cycle_value<&Cycle::energy, &EnergyLost::motor_friction>),
+          cycle_value<&Cycle::energy, &EnergyBalance::motor_friction>),
     entry(Quantity::load_friction_loss, "load_friction_loss", joule, motion,
           "energy lost in the load's friction over a period",
-          cycle_value<&Cycle::energy, &EnergyLost::load_friction>),
+          cycle_value<&Cycle::energy, &EnergyBalance::load_friction>),
     entry(Quantity::impact_loss, "impact_loss", joule, motion,
           "energy lost at impacts over a period",
-          cycle_value<&Cycle::energy, &EnergyLost::impacts>),
+          cycle_value<&Cycle::energy, &EnergyBalance::impacts>),
     entry(Quantity::residual, "residual", one, motion,
           "relative mismatch of the state after one cycle", cycle_value<&Cycle::residual>),
     entry(Quantity::static_error, "static_error", radian, answer,
           "largest error at rest that was found, reference minus load", static_error),
+    entry(Quantity::error, "error", radian, answer,
+          "largest error in the end, reference minus load, where small disturbances lead", error),
+    entry(Quantity::error_if_disturbed, "error_if_disturbed", radian, answer,
+          "largest error in the end, reference minus load, wherever a start leads",
+          error_if_disturbed),
     entry(Quantity::time_to_rest, "time_to_rest", second, answer,
           "longest time to rest of the starts that were searched",
           at<&Answer::rest, &Rest::time, &TimeToRest::longest>),
@@ -154,6 +226,12 @@ constexpr std::array entries = {
     entry(Quantity::phase_margin, "phase_margin", radian, loop,
           "phase margin of the linear loop without the gap",
           at<&Answer::loop, &LinearLoop::phase_margin>),
+    entry(Quantity::gain_margin, "gain_margin", one, loop,
+          "factor of the gain at which the linear loop without the gap loses its stability",
+          at<&Answer::loop, &LinearLoop::gain_margin>),
+    entry(Quantity::lag, "lag", radian, loop,
+          "largest error in the end of a moving reference, of the linear loop without the gap",
+          at<&Answer::loop, &LinearLoop::lag>),
     entry(Quantity::rise_time, "rise_time", second, step,
           "time in which a step of the reference takes the load from 10 % to 90 %",
           at<&Answer::step, &StepResponse::rise_time>),
@@ -161,7 +239,7 @@ constexpr std::array entries = {
           "by which the load exceeds a step of the reference, as a share of it",
           at<&Answer::step, &StepResponse::overshoot>),
     entry(Quantity::settling_time, "settling_time", second, step,
-          "time after which the load stays within 5 % of a step of the reference",
+          "time after which the load stays within the band about a step of the reference",
           at<&Answer::step, &StepResponse::settling_time>)};
 
 constexpr bool are_in_order() {

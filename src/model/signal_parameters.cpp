@@ -1,4 +1,4 @@
-// Parameters of the reference and of the load torque.
+// Parameters of the reference, of the load torque and of what is asked of a drive.
 #include "model/parameter_list.hpp"
 
 namespace gearlash::parameter_rows {
@@ -97,11 +97,24 @@ std::vector<Parameter> motion_parameters() {
             "highest acceleration of the move", unit<angular_acceleration>, positive, required)};
 }
 
+template <auto member>
+constexpr Place in_specification = at<&Drive::specification, member>;
+
+std::vector<Parameter> specification_parameters() {
+  return {entry("specification.error", in_specification<&Specification::error>,
+                "error of the load that is permitted in the end", unit<angle>, positive),
+          entry("specification.step", in_specification<&Specification::step>,
+                "step of the reference whose response is measured", unit<angle>),
+          entry("specification.band", in_specification<&Specification::band>,
+                "distance within which a motion has settled", unit<angle>, positive)};
+}
+
 }  // namespace
 
 std::vector<Parameter> signal_parameters() {
   return joined({&reference_kinds, &shared_parameters<&Drive::reference>, &motion_parameters,
-                 &load_torque_kinds, &shared_parameters<&Drive::load_torque>});
+                 &load_torque_kinds, &shared_parameters<&Drive::load_torque>,
+                 &specification_parameters});
 }
 
 }  // namespace gearlash::parameter_rows

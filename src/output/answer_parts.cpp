@@ -252,10 +252,12 @@ std::string mesh_torque_alone(const AnswerReport& report) {
 
 }  // namespace
 
+std::optional<double> AnswerReport::specification() const { return drive.specification.error; }
+
 std::optional<double> AnswerReport::widest_backlash() const {
-  if (!answer.ceiling || !specification) return std::nullopt;
+  if (!answer.ceiling || !specification()) return std::nullopt;
   const double backlash = drive.servo ? drive.servo->backlash : drive.gearbox.backlash;
-  return answer.ceiling->widest_backlash(*specification, backlash);
+  return answer.ceiling->widest_backlash(*specification(), backlash);
 }
 
 std::string ceiling_text(const AnswerReport& report) {
@@ -286,16 +288,16 @@ std::string ceiling_text(const AnswerReport& report) {
 }
 
 std::string specification_text(const AnswerReport& report) {
-  if (!report.specification || !report.answer.ceiling) return "";
+  if (!report.specification() || !report.answer.ceiling) return "";
   const Ceiling& ceiling = *report.answer.ceiling;
   if (!ceiling.load) return "";  // the reason stands where the ceiling would be
-  const std::string wanted = AnswerUnits(report, usual_digits).short_swing(*report.specification);
+  const std::string wanted = AnswerUnits(report, usual_digits).short_swing(*report.specification());
   if (const std::optional<double> widest = report.widest_backlash()) {
     return further_paragraph(fmt::format(
         "Specification: every backlash up to {} provably keeps the load within {} in the end. This "
         "drive {}.",
         lower_bound_text(*widest, report), wanted,
-        *ceiling.load <= *report.specification ? "meets it" : "is not proved to meet it"));
+        *ceiling.load <= *report.specification() ? "meets it" : "is not proved to meet it"));
   }
   return further_paragraph(
       fmt::format("Specification: no backlash is proved to keep the load within {}: what else "

@@ -127,8 +127,8 @@ std::string residual_text(double residual) {
   return "< " + significant(bound, 2);
 }
 
-void add_energy(TextRows& rows, const EnergyLost& energy, const AnswerUnits& units) {
-  const double total = energy.total();
+void add_energy(TextRows& rows, const EnergyBalance& energy, const AnswerUnits& units) {
+  const double total = energy.lost();
   const auto text = [&](double part) { return units.in(part, " K rad²", " J"); };
   rows.push_back({"energy lost per period", text(total)});
   const auto share = [&](const char* name, double part) {

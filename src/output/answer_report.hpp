@@ -42,11 +42,10 @@ struct AnswerReport {
   Provenance provenance{};                ///< how it was made
   std::optional<HuntingMargin> margin{};  ///< on request, as is `sensitivity`
   std::optional<Jacobian> sensitivity{};  ///< derivatives, on request
-  /// rad: an amplitude of the load for which the widest backlash is to be stated that provably
-  /// keeps it. Needs the ceiling.
-  std::optional<double> specification{};
   std::optional<MeasuredHunting> measured{};  ///< to be compared with every motion found
 
+  [[nodiscard]] std::optional<double> specification()
+      const;  ///< rad, the error that is permitted in the end
   [[nodiscard]] std::optional<double> widest_backlash()
       const;  ///< rad, that provably keeps the specification; empty where none is proved
   [[nodiscard]] std::vector<MotionBesideMeasured> beside_measured()

@@ -36,7 +36,7 @@ RowCount work_out(GridTable& table, Progress& progress) {
   AskedOfRows asked;
   if (table.target) {
     table.kinds.assign(rows, PlaceKind::not_known);
-    asked = asked_for_kinds(family, table.target, table.kinds);
+    asked = asked_for_kinds(table.target, table.kinds);
   }
   asked.columns = columns_of(table.table);
   asked.proved = table.grid.proved;

@@ -64,6 +64,7 @@ Cycle cycle_of(const drive::FoundCycle& found, const drive::DriveSystem& system)
   cycle.amplitude = found.amplitude;
   cycle.motor_amplitude = found.motor_amplitude;
   cycle.center = found.is_symmetric ? 0.0 : found.center;
+  cycle.error = found.error;
   cycle.period = found.period();
   cycle.multiplier = found.multiplier;
   cycle.residual = found.orbit.residual;
@@ -94,6 +95,7 @@ IrregularMotion irregular_of(const drive::IrregularFound& found) {
   return {.amplitude = found.amplitude,
           .motor_amplitude = found.motor_amplitude,
           .center = found.center,
+          .error = found.error,
           .is_motor_alone = found.is_motor_alone,
           .mean_amplitude = finite(found.half_swing),
           .amplitude_deviation = finite(found.half_swing_deviation),
@@ -279,6 +281,7 @@ Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive
   answer.thresholds = search.thresholds;
   if (search.rest) answer.rest = rest_of(search, reduced);
   answer.search = SearchRecord{.watch_time = search.watch_time,
+                               .reference = drive::middle_of(reduced.reference),
                                .is_complete = search.is_complete,
                                .borders = search.edges.size(),
                                .starts = of_each(search.outcomes, outcome_of)};
@@ -369,7 +372,7 @@ bool is_figure(Quantity quantity) {
   return scope != QuantityScope::answer && scope != QuantityScope::motion;
 }
 
-void ask_for(Quantity quantity, const Drive& base, Wanted& wanted) {
+void ask_for(Quantity quantity, Wanted& wanted) {
   switch (info_of(quantity).scope) {
     case QuantityScope::ceiling:
       wanted.ceiling = true;
@@ -378,8 +381,7 @@ void ask_for(Quantity quantity, const Drive& base, Wanted& wanted) {
       wanted.loop = true;
       break;
     case QuantityScope::step:
-      wanted.step =
-          drive::usual_step_size(base.servo ? base.servo->backlash : base.gearbox.backlash);
+      wanted.step = true;
       break;
     case QuantityScope::answer:
     case QuantityScope::motion:
@@ -397,7 +399,8 @@ void add_figures(const SoundDrive& of, const Wanted& wanted, Answer& answer, Pro
   if (wanted.loop && faults(with_gap).empty()) answer.loop = drive::loop_figures(with_gap);
   if (wanted.step && faults(drive).empty()) {
     answer.step =
-        drive::step_response(drive, *wanted.step, drive::usual_step(drive).until, progress);
+        drive::step_response(drive, drive::step_of(of.given()), drive::band_of(of.given(), drive),
+                             drive::usual_step_time(drive), progress);
   }
 }
 
@@ -425,7 +428,7 @@ Analysis analyse_in_full(const SoundDrive& sound, const Wanted& wanted, Progress
         .is_enough = scope.is_enough,
         .may_hurry = scope.may_hurry,
         .most_edges = wanted.borders ? drive::AttractorOptions{}.most_edges : 0,
-        .band = wanted.rest_band,
+        .band = drive::band_of(drive, analysis.reduced),
         .tolerances = scope.tolerances,
         .budget = {.bytes_kept = wanted.motion_bytes}};
     if (scope.near != nullptr && scope.near->search) {
@@ -452,7 +455,7 @@ Analysis analyse_in_full(const SoundDrive& sound, const Wanted& wanted, Progress
   }
   // The motion from which a ceiling is measured stands in the end, unless a sine drives it.
   if (!is_driven(analysis.reduced)) withdraw_if_contradictory(analysis.answer);
-  if (wanted.quantization && analysis.search && is_of_few_steps(analysis.answer)) {
+  if (wanted.causes && analysis.search && is_of_few_steps(analysis.answer)) {
     analysis.answer.is_quantization = is_quantization(drive, *analysis.search, wanted, progress);
   }
   std::vector<Note> notes = notes_on(sound);

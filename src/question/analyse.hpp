@@ -54,9 +54,8 @@ bool is_at_rest(Verdict verdict);
 /// Whether the quantity is computed without the motions that the drive ends in.
 bool is_figure(Quantity quantity);
 
-/// Adds to `wanted` what the quantity is of. `base`: the drive of the question, whose usual_step()
-/// all drives beside it make too.
-void ask_for(Quantity quantity, const Drive& base, Wanted& wanted);
+/// Adds to `wanted` what the quantity is of.
+void ask_for(Quantity quantity, Wanted& wanted);
 
 /// What is computed without the motions that the drive ends in: ceiling, linear loop and step.
 void add_figures(const SoundDrive& drive, const Wanted& wanted, Answer& answer, Progress& progress);

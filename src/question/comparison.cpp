@@ -51,20 +51,20 @@ std::optional<double> stiffness_of(const Drive& given) {
 }
 
 /// Followed on where the load is still on its way, unless a time was given.
-StepResponse response_of(const drive::ReducedDrive& drive, double step,
+StepResponse response_of(const drive::ReducedDrive& drive, double step, double band,
                          const std::optional<double>& until, Progress& progress) {
   constexpr double longest = 64.0;
-  const double usual = drive::usual_step(drive).until;
-  StepResponse response = drive::step_response(drive, step, until.value_or(usual), progress);
+  const double usual = drive::usual_step_time(drive);
+  StepResponse response = drive::step_response(drive, step, band, until.value_or(usual), progress);
   for (double times = 2.0; times <= longest; times *= 2.0) {
     const bool stands = response.ripple <= 1e-6 * std::abs(step);
     if (until || response.rise_time || stands || !response.is_whole) break;
-    response = drive::step_response(drive, step, times * usual, progress);
+    response = drive::step_response(drive, step, band, times * usual, progress);
   }
   return response;
 }
 
-ComparedDrive compared(const NamedDrive& one, double step, const ComparisonOptions& options,
+ComparedDrive compared(const NamedDrive& one, double step, double band, const ComparisonOptions& options,
                        Progress& progress) {
   const drive::ReducedDrive reduced = reduce_settled(one.drive);
   ComparedDrive found{.name = one.name,
@@ -72,14 +72,14 @@ ComparedDrive compared(const NamedDrive& one, double step, const ComparisonOptio
                       .answer = analyse(one.drive,
                                         {.ceiling = true,
                                          .loop = true,
-                                         .quantization = true,
+                                         .causes = true,
                                          .motion_bytes = options.motion_bytes},
                                         progress),
                       .encoder_step = reduced.sensing.resolution,
                       .stiffness = stiffness_of(one.drive)};
   const bool is_unstable = found.answer->loop && !found.answer->loop->is_stable;
   if (!is_unstable && faults(reduced).empty()) {
-    found.answer->step = response_of(reduced, step, options.until, progress);
+    found.answer->step = response_of(reduced, step, band, options.until, progress);
   }
   return found;
 }
@@ -89,12 +89,14 @@ ComparedDrive compared(const NamedDrive& one, double step, const ComparisonOptio
 std::vector<ComparedDrive> compare(const std::vector<NamedDrive>& drives,
                                    const ComparisonOptions& options, Progress& progress) {
   require_comparable(drives, options);
-  const double step =
-      options.step.value_or(drive::usual_step_size(reduce(drives.front().drive).backlash));
+  Drive asked = drives.front().drive;
+  if (options.step) asked.specification.step = options.step;
+  const double step = drive::step_of(asked);
+  const double band = drive::band_of(asked, reduce(asked));
   SharedProgress shared(progress, drives.size());
   return of_each_on_threads(drives, [&](const NamedDrive& one) {
     ComparedDrive found = shared.is_stopped() ? ComparedDrive{.name = one.name, .drive = one.drive}
-                                              : compared(one, step, options, shared);
+                                              : compared(one, step, band, options, shared);
     shared.finish(1);
     return found;
   });

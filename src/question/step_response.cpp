@@ -113,23 +113,29 @@ hybrid::Trajectory step_motion(ReducedDrive drive, double step, double until, Pr
 
 }  // namespace
 
-double usual_step_size(double backlash) {
-  constexpr double backlashes = 10.0;
+double step_of(const Drive& drive) {
   constexpr double degree = std::numbers::pi / 180.0;
-  return backlash > 0.0 ? backlashes * backlash : degree;
+  return drive.specification.step.value_or(drive.servo ? 1.0 : degree);
 }
 
-Step usual_step(const ReducedDrive& drive) {
+double band_of(const Drive& drive, const ReducedDrive& reduced) {
+  const Specification& asked = drive.specification;
+  if (asked.band) return *asked.band;
+  if (asked.error) return *asked.error;
+  constexpr double of_step = 0.01;
+  const double count = reduced.sensing.resolution;
+  return count > 0.0 ? count : of_step * std::abs(step_of(drive));
+}
+
+double usual_step_time(const ReducedDrive& drive) {
   constexpr double swings = 20.0;
-  return {usual_step_size(drive.backlash), swings * time_scales(drive).swing};
+  return swings * time_scales(drive).swing;
 }
 
-StepResponse step_response(const ReducedDrive& drive, double step, double until,
+StepResponse step_response(const ReducedDrive& drive, double step, double band, double until,
                            Progress& progress) {
   const hybrid::Trajectory motion = step_motion(drive, step, until, progress);
-  constexpr double share = 0.05;
-  StepResponse response{.step = step, .until = motion.end_time()};
-  response.band = share * std::abs(step);
+  StepResponse response{.step = step, .until = motion.end_time(), .band = band};
   response.is_whole = motion.stop_reason() == hybrid::StopReason::reached_end;
   const bool is_stopped = motion.stop_reason() == hybrid::StopReason::stopped;
   if (motion.end_time() > 0.0) {

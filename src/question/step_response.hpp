@@ -7,18 +7,17 @@
 
 namespace gearlash::drive {
 
-/// A step that shows a drive, and a time in which it should settle.
-struct Step {
-  double size;   ///< rad: usual_step_size()
-  double until;  ///< s: twenty swings of the linear loop
-};
-double usual_step_size(double backlash);  ///< rad: ten backlashes, or 1° without one
-Step usual_step(const ReducedDrive& drive);
+/// rad: Specification::step; 1° if it is not given, and 1 rad of a normal form, which has no units.
+double step_of(const Drive& drive);
+/// rad: Specification::band, as it is chosen there for want of one. `reduced`: the same drive.
+double band_of(const Drive& drive, const ReducedDrive& reduced);
+/// s, in which a step should settle: twenty swings of the linear loop.
+double usual_step_time(const ReducedDrive& drive);
 
 /// Times and extremes are found to rounding between 4096 samples and all events; a swing that
 /// begins and ends between two of them is missed. Stopped by Progress, it is that of the motion by
 /// then, which has not settled. Throws InvalidInput.
-StepResponse step_response(const ReducedDrive& drive, double step, double until,
+StepResponse step_response(const ReducedDrive& drive, double step, double band, double until,
                            Progress& progress = no_progress());
 
 }  // namespace gearlash::drive

@@ -13,7 +13,7 @@ from gearlash import thesis
     ("until", lambda servo: gearlash.simulate(servo, True)),
     ("most_events", lambda servo: gearlash.simulate(servo, 1.0, most_events=1e4)),
     ("every", lambda servo: gearlash.simulate(servo, 1.0).sampled("0.1")),
-    ("step", lambda servo: gearlash.analyse(servo, step="1")),
+    ("step", lambda servo: gearlash.compare({"a": servo}, step="1")),
     ("damping", lambda servo: gearlash.Drive.normal_form(None, 2, 0.1)),
     ("damping", lambda servo: gearlash.Drive.normal_form(True, 2, 0.1)),
     ("samples", lambda servo: gearlash.tolerance(servo, samples=1e3)),

@@ -42,7 +42,7 @@ TEST(OracleComparison, HasTheAnswersOfAnalyseInTheOrderOfTheDrives) {
   for (std::size_t i = 0; i < drives.size(); ++i) {
     EXPECT_EQ(compared[i].name, drives[i].name);
     EXPECT_EQ(compared[i].drive, drives[i].drive);
-    const Answer alone = analyse(drives[i].drive, {.ceiling = true, .quantization = true});
+    const Answer alone = analyse(drives[i].drive, {.ceiling = true, .causes = true});
     EXPECT_EQ(compared[i].answer->verdict, alone.verdict);
     EXPECT_EQ(compared[i].answer->certainty, alone.certainty);
     EXPECT_EQ(compared[i].answer->ceiling->load, alone.ceiling->load);
@@ -55,11 +55,11 @@ TEST(OracleComparison, HasTheAnswersOfAnalyseInTheOrderOfTheDrives) {
   EXPECT_EQ(compared[0].answer->certainty, Certainty::enclosed);
 }
 
-/// Ten backlashes of the first; K = 1 N m/rad in every normal form.
+/// That of the first, 1 rad of a normal form; K = 1 N m/rad in every normal form.
 TEST(OracleComparison, AllMakeTheStepOfTheFirst) {
   const auto compared = compare({{"first", servo(0.9)}, {"second", normal_form(0.9, 2, 0.1, 0.7)}});
   for (const ComparedDrive& one : compared) {
-    EXPECT_DOUBLE_EQ(one.answer->step->step, 10.0 * 0.3) << one.name;
+    EXPECT_DOUBLE_EQ(one.answer->step->step, 1.0) << one.name;
     EXPECT_DOUBLE_EQ(*one.stiffness, 1.0) << one.name;
   }
   const auto asked = compare({{"first", servo(0.9)}}, {.step = -2.0, .until = 7.0});
@@ -97,9 +97,9 @@ TEST(EdgeComparison, AStepIsFollowedUntilTheLoadHasRisen) {
   slow.motor.limit = 0.05;
   slow.motor.friction = {};
   const drive::ReducedDrive reduced = reduce(slow);
-  const double usual = drive::usual_step(reduced).until;
+  const double usual = drive::usual_step_time(reduced);
   const double step = 1000.0;
-  ASSERT_FALSE(drive::step_response(reduced, step, usual).rise_time);
+  ASSERT_FALSE(drive::step_response(reduced, step, 0.05 * step, usual).rise_time);
   const auto compared = compare({{"slow", slow}}, {.step = step});
   EXPECT_TRUE(compared[0].answer->step->rise_time);
   EXPECT_GT(compared[0].answer->step->until, usual);

@@ -27,7 +27,7 @@ TEST(OracleStepResponse, IsThatOfASecondOrderSystem) {
   constexpr double damping = 0.3;
   const double w = std::sqrt(1.0 - damping * damping);
   for (const double step : {1.0, -2.5}) {
-    const StepResponse response = step_response(second_order(damping), step, 40.0);
+    const StepResponse response = step_response(second_order(damping), step, 0.05 * std::abs(step), 40.0);
     ASSERT_TRUE(response.is_whole);
     EXPECT_NEAR(response.overshoot.value(), std::exp(-damping * std::numbers::pi / w), 1e-9);
     const auto position = [&](double t) {
@@ -58,20 +58,20 @@ TEST(OracleStepResponse, IsThatOfASecondOrderSystem) {
 TEST(StepResponse, SaysWhatDoesNotComeAbout) {
   ReducedDrive drive = second_order(0.3);
   drive.motor.friction.coulomb = drive.motor.friction.breakaway = 2.0;  // more than the step asks
-  const StepResponse response = step_response(drive, 1.0, 10.0);
+  const StepResponse response = step_response(drive, 1.0, 0.05, 10.0);
   EXPECT_FALSE(response.rise_time);
   EXPECT_FALSE(response.settling_time);
   EXPECT_EQ(response.overshoot, 0.0);
   EXPECT_NEAR(response.final_error, 1.0, 1e-9);
-  EXPECT_THROW(step_response(drive, 0.0, 10.0), InvalidInput);
-  EXPECT_THROW(step_response(drive, 1.0, 0.0), InvalidInput);
+  EXPECT_THROW(step_response(drive, 0.0, 0.05, 10.0), InvalidInput);
+  EXPECT_THROW(step_response(drive, 1.0, 0.05, 0.0), InvalidInput);
 }
 
 /// It stays in its band from 4 s on, and so would any part of the motion; only the whole shows it.
 TEST(StepResponse, IsThatOfTheMotionByThenWhereItIsStopped) {
   test::Stopping impatient(3);
   const ReducedDrive drive = second_order(0.5);
-  const StepResponse response = step_response(drive, 1.0, 1e6, impatient);
+  const StepResponse response = step_response(drive, 1.0, 0.05, 1e6, impatient);
   EXPECT_EQ(impatient.asked, 3);
   EXPECT_FALSE(response.is_whole);
   EXPECT_GT(response.until, 10.0);
@@ -79,7 +79,7 @@ TEST(StepResponse, IsThatOfTheMotionByThenWhereItIsStopped) {
   EXPECT_TRUE(response.rise_time);
   EXPECT_FALSE(response.settling_time);
   EXPECT_FALSE(response.overshoot);
-  EXPECT_TRUE(step_response(drive, 1.0, response.until).settling_time);
+  EXPECT_TRUE(step_response(drive, 1.0, 0.05, response.until).settling_time);
 }
 
 /// Wherever in its swing the motion is when it is no longer watched.
@@ -90,7 +90,7 @@ TEST(StepResponse, WhatHuntsBeyondTheBandDoesNotSettle) {
   drive.backlash = 0.3;
   drive.controller = at_load(PID{.proportional = 1.0});
   for (double until = 60.0; until < 66.5; until += 0.5) {
-    const StepResponse response = step_response(drive, 3.0, until);
+    const StepResponse response = step_response(drive, 3.0, 0.15, until);
     EXPECT_NEAR(response.ripple, 0.2416, 1e-3);  // of which the band has 0.15
     EXPECT_FALSE(response.settling_time) << until;
   }

@@ -39,7 +39,7 @@ Drive named(const std::string& name, const std::vector<Setting>& settings = {}) 
 /// It hunts by 2.5 encoder steps; without the encoder it hunts alike, by ±6.28 arcmin.
 TEST(Quantization, IsNotWhatADriveDoesWithoutEncoderToo) {
   const Drive drive = named("hunts-with-any-encoder");
-  const Answer answer = analyse(drive, {.quantization = true});
+  const Answer answer = analyse(drive, {.causes = true});
   EXPECT_EQ(answer.is_quantization, false);
   EXPECT_THAT(headline(drive, answer), HasSubstr(", 2.5 encoder steps"));
   EXPECT_THAT(headline(drive, answer), Not(HasSubstr("quantization")));
@@ -56,7 +56,7 @@ TEST(Quantization, IsHuntingThatEndsWithTheStepsOfTheEncoder) {
   const std::vector<Setting> settings = {
       {"load.coulomb", "30 mN m"}, {"sampling.period", "1 ms"}, {"sensor.counts_per_turn", "4096"}};
   const Drive drive = drive_of(file, settings);
-  const Answer answer = analyse(drive, {.quantization = true});
+  const Answer answer = analyse(drive, {.causes = true});
   EXPECT_EQ(answer.is_quantization, true);
   EXPECT_THAT(headline(drive, answer), HasSubstr("2.7 encoder steps: quantization"));
   for (const char* counts : {"none", "16384"}) {
@@ -182,7 +182,9 @@ TEST(TimeToRestInWords, IsInTheHeadlineFromAMinuteOn) {
   EXPECT_THAT(headline(slow, answer), StartsWith("comes to rest from all 28 starts, after up to "));
   EXPECT_THAT(headline(slow, answer), HasSubstr(" min"));
   // A wider band is reached sooner.
-  const Answer wide = analyse(slow, {.rest_band = 60.0 * arcmin});
+  Drive tolerant = slow;
+  tolerant.specification.band = 60.0 * arcmin;
+  const Answer wide = analyse(tolerant);
   ASSERT_TRUE(wide.rest && wide.rest->time);
   EXPECT_EQ(wide.rest->time->band, 60.0 * arcmin);
   EXPECT_LT(wide.rest->time->longest, 60.0);

@@ -156,7 +156,7 @@ class Core::Session {
   /// Coarse: without proofs and borders; a search follows that of the drive before, or one start.
   Analysis analysed(bool is_coarse, const WrittenDrive& written, Progress& progress) {
     Wanted wanted{
-        .proofs = !is_coarse, .ceiling = true, .borders = !is_coarse, .quantization = !is_coarse};
+        .proofs = !is_coarse, .ceiling = true, .borders = !is_coarse, .causes = !is_coarse};
     if (!is_coarse) return analyse_in_full(written.drive, wanted, progress);
     return analyse_in_full(
         written.drive, wanted, progress,

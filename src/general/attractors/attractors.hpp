@@ -36,6 +36,7 @@ struct FoundCycle {
                            ///< within the gap and the load stands
   double motor_amplitude = 0.0;  ///< rad, of the motor
   double center = 0.0;           ///< rad, mean of the load's extremes, from the reference
+  double error = 0.0;            ///< rad, largest |reference − load|
   /// rad, of all that count as this one: mirror images, and neutral cycles of one period, which are
   /// a family.
   Extent centers;
@@ -72,6 +73,7 @@ struct IrregularFound {
   double amplitude = 0.0;        ///< rad, half the peak-to-peak of the load
   double motor_amplitude = 0.0;  ///< rad, of the motor
   double center = 0.0;           ///< rad, of the load's extremes, from the reference
+  double error = 0.0;            ///< rad: |reference − load| is larger for 0.1 % of `watched`
   double mean_center = 0.0;      ///< rad, of the middles of its swings: known better
   /// Within the gap, while the load hardly moves. Swings and periods are then the motor's.
   bool is_motor_alone = false;

@@ -108,6 +108,8 @@ FoundCycle measured(const SearchSetting& setting, const PeriodicOrbit& orbit,
   cycle.amplitude = load_moves ? 0.5 * load.width() : 0.0;
   cycle.motor_amplitude = 0.5 * motor.width();
   cycle.center = load.middle();
+  const Extent error = setting.error ? extent_of(samples(motion, *setting.error)) : load;
+  cycle.error = std::max(std::abs(error.low), std::abs(error.high));
   cycle.centers.include(cycle.center);
   cycle.amplitudes.include(cycle.amplitude);
   cycle.frequency = 2.0 * std::numbers::pi / orbit.period;

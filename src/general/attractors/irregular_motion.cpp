@@ -112,6 +112,8 @@ Irregularity irregularity_of(const Watch& watch, const Stretch& stretch,
   found.motor_amplitude = 0.5 * extent_of(of_motor).width();
   found.center = range.middle();
   found.mean_center = found.is_motor_alone ? found.center : mean_middle(turns);
+  constexpr double rarely = 1e-3;
+  found.error = size_exceeded_for(rarely, setting.error ? after(watch.error, from) : of_load);
   found.watched = stretch.time - from;
   const double middle = extent_of(last).middle();
   const Spread period = spread_of_periods(

@@ -177,6 +177,35 @@ std::vector<double> upward_passings(const std::vector<Sample>& extremes, double 
   return times;
 }
 
+double size_exceeded_for(double share, const std::vector<Sample>& samples) {
+  const auto share_below = [](const Sample& one, const Sample& other, double level) {
+    const double low = std::min(one.value, other.value);
+    const double high = std::max(one.value, other.value);
+    if (level <= low) return 0.0;
+    if (level >= high) return 1.0;
+    return std::acos(1.0 - 2.0 * (level - low) / (high - low)) / std::numbers::pi;
+  };
+  const auto time_beyond = [&](double level) {
+    double time = 0.0;
+    for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
+      const double within = share_below(samples[i], samples[i + 1], level) -
+                            share_below(samples[i], samples[i + 1], -level);
+      time += (1.0 - within) * (samples[i + 1].time - samples[i].time);
+    }
+    return time;
+  };
+  const double permitted = share * (samples.back().time - samples.front().time);
+  double inside = 0.0;
+  double beyond = 0.0;
+  for (const Sample& sample : samples) beyond = std::max(beyond, std::abs(sample.value));
+  constexpr int bisections = 40;
+  for (int i = 0; i < bisections; ++i) {
+    const double middle = 0.5 * (inside + beyond);
+    (time_beyond(middle) > permitted ? inside : beyond) = middle;
+  }
+  return beyond;
+}
+
 double least_mismatch(const std::vector<Sample>& extremes) {
   constexpr std::size_t most = 1000;  // the comparison takes the square of this
   std::vector<double> swings;

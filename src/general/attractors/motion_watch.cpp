@@ -152,7 +152,11 @@ class StretchObserver : public hybrid::MotionObserver {
         course_(watch.time, setting),
         load_(setting.load, watch.load),
         motor_(setting.motor, watch.motor),
-        speeds_{setting.load.speed, setting.motor.speed} {}
+        speeds_{setting.load.speed, setting.motor.speed} {
+    if (!setting.error) return;
+    error_.emplace(*setting.error, watch.error);
+    speeds_.push_back(setting.error->speed);
+  }
 
   const std::vector<hybrid::AffineForm>& watched() const override { return speeds_; }
 
@@ -168,11 +172,13 @@ class StretchObserver : public hybrid::MotionObserver {
     course_.moved(from, to, before, after);
     load_.moved(from, to, before, after);
     motor_.moved(from, to, before, after);
+    if (error_) error_->moved(from, to, before, after);
   }
 
   void end(Watch& watch, Stretch& stretch) {
     load_.end();
     motor_.end();
+    if (error_) error_->end();
     include(watch.all, all_.low, all_.high);
     if (is_in_last_) include(stretch.last, last_.low, last_.high);
     stretch.course = course_.course(0);
@@ -187,6 +193,7 @@ class StretchObserver : public hybrid::MotionObserver {
   CourseWatch course_;
   Turns load_;
   Turns motor_;
+  std::optional<Turns> error_;
   std::vector<hybrid::AffineForm> speeds_;
 };
 
@@ -240,6 +247,7 @@ Stretch follow(Watch& watch, double until, std::size_t step_limit, std::size_t e
   const std::vector<Sample> motor = rough_samples(motion, setting.motor);
   add_all(watch.load, load);
   add_all(watch.motor, motor);
+  if (setting.error) add_all(watch.error, rough_samples(motion, *setting.error));
   watch.busy += busy_time(load, motor, budget.counted_between_events * setting.swing_time);
   move_on(watch, stretch);
   return stretch;

@@ -34,6 +34,7 @@ struct Watch {
   std::vector<Extent> all{};  ///< of each number
   std::vector<Sample> load{};
   std::vector<Sample> motor{};
+  std::vector<Sample> error{};   ///< as of SearchSetting
   std::vector<Mark> marks{};     ///< the start of each stretch
   std::vector<Extent> before{};  ///< of each number in the last half of the stretch before
   bool starts_at_rest = false;

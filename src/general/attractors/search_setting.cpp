@@ -85,6 +85,17 @@ void look(SearchSetting& setting) {
   };
   setting.load = watched_at(load_position, load_speed);
   setting.motor = watched_at(motor_position, motor_speed);
+  if (std::holds_alternative<Sine>(setting.drive.reference)) {
+    AffineForm error = setting.built.reference;
+    error.normal = error.normal.cwiseProduct(scale) - setting.load.value.normal;
+    error.offset -= middle_of(setting.drive.reference);
+    // The speed of a signal is by its own numbers alone, which every mode moves alike.
+    AffineForm speed{setting.built.system.mode(0).flow.matrix.transpose() *
+                         setting.built.reference.normal,
+                     0.0};
+    speed.normal = speed.normal.cwiseProduct(scale) - setting.load.speed.normal;
+    setting.error = watched(system, std::move(error), std::move(speed));
+  }
   setting.with_turns = hybrid::PreparedSystem(
       hybrid::with_turns(system, setting.load.speed, hybrid::OtherEvents::kept));
 }

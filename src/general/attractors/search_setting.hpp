@@ -17,6 +17,8 @@ struct SearchSetting {
       with_turns;  ///< with events where the load turns, for motion that has no events
   Watched load;    ///< position from the reference, rad, of the frame's numbers
   Watched motor;
+  /// rad, reference − load, where a sine moves the reference; else it is −load.
+  std::optional<Watched> error;
   Eigen::Index own = 0;        ///< numbers before those of the signals
   double swing_time = 0.0;     ///< s
   double settling_time = 0.0;  ///< s

@@ -14,10 +14,10 @@ namespace {
 /// Without an axis the drive is as it is. `known`: its analysis by a search, or nullptr.
 DriveWithValue with_value(const Drive& base, const Axis* axis, double value, const Target& target,
                           Progress& progress, const AnalysedLine::Known& known = nullptr) {
-  Wanted wanted = wanted_for(target, base);
+  Wanted wanted = wanted_for(target);
   wanted.borders = true;
   for (const Quantity cost : {Quantity::bandwidth, Quantity::overshoot}) {
-    ask_for(cost, base, wanted);
+    ask_for(cost, wanted);
   }
   Drive drive = base;
   if (axis != nullptr) set_on(*axis, drive, value);

@@ -157,7 +157,7 @@ std::optional<CombinedMargin> combined_margin(const Drive& drive, const std::vec
   FeasibleValues quiet{.searched = {0.0, reach},
                        .grid = linear("length", 0.0, reach, count).values};
   searched_values([&](double length) { return changed(factors_along(direction, length)); },
-                  always_at_rest(), wanted_for(always_at_rest(), drive), quiet, progress);
+                  always_at_rest(), wanted_for(always_at_rest()), quiet, progress);
   if (quiet.stopped) return std::nullopt;
   const std::optional<double> length = first_border(quiet, hunts);
   constexpr double beyond = 2.0;  // times what counts as one length
@@ -189,7 +189,7 @@ HuntingMargin margins(const Drive& drive, const std::vector<Axis>& of, Progress&
   const std::size_t parts = axes.size() + 2;
   HuntingMargin margin;
   ProgressPart first(progress, 0, parts);
-  const Answer present = analyse(drive, wanted_for(always_at_rest(), drive), first);
+  const Answer present = analyse(drive, wanted_for(always_at_rest()), first);
   margin.hunts = !is_met(always_at_rest(), present);
   margin.is_known = is_known(always_at_rest(), present);
   margin.growth_at_rest = present.growth_at_rest;

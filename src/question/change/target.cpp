@@ -146,9 +146,9 @@ Judgement judge_resting(const Target& target) {
 
 }  // namespace
 
-Wanted wanted_for(const Target& target, const Drive& base) {
+Wanted wanted_for(const Target& target) {
   Wanted wanted{.proofs = false, .borders = asks_for_motion(target)};
-  for (const QuantityLimit& limit : target.limits) ask_for(limit.quantity, base, wanted);
+  for (const QuantityLimit& limit : target.limits) ask_for(limit.quantity, wanted);
   return wanted;
 }
 

@@ -36,11 +36,10 @@ Judgement judge(const Target& target, const AnswerBounds& bounds);
 /// Whether a drive with backlash and this growth at rest misses the target, whatever its cycles.
 bool is_ruled_out(const Target& target, double growth_at_rest);
 
-/// What analyse() must compute for the target to be judged, of `base` and of drives with other
-/// values: see ask_for(). Whether a drive hunts or runs away is known from its starts alone. The
+/// What analyse() must compute for the target to be judged. Whether a drive hunts or runs away is known from its starts alone. The
 /// largest stable cycle now and then is found only where what lies between two starts is searched:
 /// limits of motion ask for that too.
-Wanted wanted_for(const Target& target, const Drive& base);
+Wanted wanted_for(const Target& target);
 
 /// A target in two parts, which together are the target.
 struct TargetParts {

@@ -128,7 +128,7 @@ class Units {
     JudgedUnit judged{.is_tried = true, .missed_by = loop.lacks};
     if (judged.missed_by > 0.0) return judged;
     const Drive drive = this->drive(unit, tuned);
-    judged.answer = analyse_in_full(drive, wanted_for(task_.target, task_.series.nominal), progress,
+    judged.answer = analyse_in_full(drive, wanted_for(task_.target), progress,
                                     {.is_enough =
                                          [&](const drive::AttractorSearch& search) {
                                            return is_missed_already(task_.target, search,
@@ -153,7 +153,7 @@ class Units {
     if (task_.aim == Aim::bandwidth) return loop.bandwidth;
     Answer answer;
     Wanted wanted;
-    ask_for(Quantity::settling_time, task_.series.nominal, wanted);
+    ask_for(Quantity::settling_time, wanted);
     add_figures(drive(unit, tuned), wanted, answer, progress);
     return answer.value(Quantity::settling_time).value_or(not_a_number);
   }

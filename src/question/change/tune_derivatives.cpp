@@ -140,7 +140,7 @@ class UnitSlopes {
     }
     if (asks_for_rest(task_.target)) return std::nullopt;
     const Analysis analysis =
-        analyse_in_full(unit_, wanted_for(task_.target, task_.series.nominal), progress);
+        analyse_in_full(unit_, wanted_for(task_.target), progress);
     const bool is_whole =
         analysis.answer.irregular.empty() && analysis.search && analysis.search->is_complete;
     if (!is_whole) return std::nullopt;

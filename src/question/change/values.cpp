@@ -267,7 +267,7 @@ void name_ends(const std::vector<Bounds>& before, FeasibleValues& found) {
 void narrow(const Drive& drive, const Axis& axis, const ServoLine* line, const Target& others,
             const std::vector<double>& values, FeasibleValues& found, Progress& progress) {
   constexpr std::size_t usual_evaluations = 200;
-  const Wanted wanted = wanted_for(others, drive);
+  const Wanted wanted = wanted_for(others);
   const DriveAlong along = drives_along(axis, drive);
   JudgedLine search(along, answered_by([&](double value) -> std::optional<Answer> {
                       const std::optional<SoundDrive> changed = SoundDrive::of(along(value));
@@ -411,7 +411,7 @@ FeasibleValues values_of_number(const Drive& drive, const Axis& axis, const Targ
     closed.present = found.present;
     found = std::move(closed);
   } else {
-    at_closest = searched_values(drives_along(axis, drive), first, wanted_for(first, drive), found,
+    at_closest = searched_values(drives_along(axis, drive), first, wanted_for(first), found,
                                  searching);
   }
   if (!is_empty(others)) {
@@ -507,7 +507,7 @@ FeasibleValues values(const Drive& drive, const Axis& axis, const Target& target
   std::sort(found.grid.begin(), found.grid.end());
   if (!parameter_of(axis, drive)->choices.empty()) {
     std::erase_if(found.grid, [&](double word) { return asks_for_more(axis, word, drive); });
-    at_closest = searched_words(drives_along(axis, drive), target, wanted_for(target, drive), found,
+    at_closest = searched_words(drives_along(axis, drive), target, wanted_for(target), found,
                                 progress);
     return found;
   }

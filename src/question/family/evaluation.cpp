@@ -22,11 +22,10 @@ namespace {
 /// The columns of what is computed without the motions that a drive ends in.
 class FigureColumns {
  public:
-  /// `base`: see ask_for().
-  FigureColumns(const CycleColumns& columns, const Drive& base) : columns_(columns) {
+  explicit FigureColumns(const CycleColumns& columns) : columns_(columns) {
     for (const QuantityInfo& info : quantities()) {
       if (!is_figure(info.quantity) || columns[info.quantity].empty()) continue;
-      ask_for(info.quantity, base, wanted_);
+      ask_for(info.quantity, wanted_);
       quantities_.push_back(info.quantity);
     }
   }
@@ -278,7 +277,7 @@ class FamilyPart {
 
   /// False if it was stopped.
   bool add_figures_to_columns(SharedProgress& progress) {
-    const FigureColumns figures(columns_, family_.base());
+    const FigureColumns figures(columns_);
     for (std::size_t row = 0; !figures.are_none() && row < servos_.size(); ++row) {
       if (!progress.go_on(0.0)) return false;
       figures.write(row, family_.drive_at(values(row)), progress);
@@ -390,7 +389,7 @@ FamilyRows rows_of(std::span<const double> table, std::size_t width) {
 RowCount evaluate(const Family& family, const FamilyRows& rows, const AskedOfRows& asked,
                   Progress& progress, const Workers& workers) {
   const bool searches = asked.one_by_one || family.engines().search;
-  const FigureColumns figures(asked.columns, family.base());
+  const FigureColumns figures(asked.columns);
   const std::vector<std::size_t> begins = parts_of(
       rows, searches, points_at_a_time(family.engines(), !figures.are_none() || asked.whole));
   RowCount total;

@@ -36,7 +36,7 @@ class PlaceJudge {
       if (known != known_.end()) return known->second;
     }
     PlaceKind kind{};
-    AskedOfRows asked = asked_for_kinds(family_, target_, {&kind, 1});
+    AskedOfRows asked = asked_for_kinds(target_, {&kind, 1});
     asked.one_by_one = asked.whole;
     const std::array values = {place.y, place.x};
     ProgressPart part(progress_, not_a_number, not_a_number);
@@ -163,14 +163,14 @@ PlaceKind kind_of(const Target& target, const Answer& answer) {
   return is_met(target, answer) ? PlaceKind::met : PlaceKind::missed;
 }
 
-AskedOfRows asked_for_kinds(const Family& family, const std::optional<Target>& target,
+AskedOfRows asked_for_kinds(const std::optional<Target>& target,
                             std::span<PlaceKind> kinds) {
   AskedOfRows asked{.take = [&target, kinds](std::size_t row, const Answer* answer) {
     if (answer == nullptr) return;
     kinds[row] = target ? kind_of(*target, *answer) : kind_of(answer->verdict);
   }};
   if (!target) return asked;
-  asked.wanted = wanted_for(*target, family.base());
+  asked.wanted = wanted_for(*target);
   asked.whole = !is_of_boxes(*target);
   return asked;
 }

@@ -139,7 +139,7 @@ bool SampleAnswers::fill(const FamilyRows& rows, std::span<SampleResult> results
   };
   AskedOfRows asked{.take = [&](std::size_t row,
                                 const Answer* answer) { results[places[row]] = result_of(answer); },
-                    .wanted = wanted_for(target_, family_.base()),
+                    .wanted = wanted_for(target_),
                     .one_by_one = true};
   asked.wanted.borders = true;  // of each sample the amplitude counts
   if (hurries_ && !asks_for_rest(target_)) asked.scope = hurried();

@@ -72,7 +72,7 @@ Drive with(Drive drive, std::string_view path, double value) {
 bool meets(const DesignTask& task, double value) {
   const Drive drive = with(task.drive, task.axis.path, value);
   if (!faults(drive).empty()) return false;
-  return is_met(task.target, analyse(drive, wanted_for(task.target, task.drive)));
+  return is_met(task.target, analyse(drive, wanted_for(task.target)));
 }
 
 /// Of many values, on all cores.

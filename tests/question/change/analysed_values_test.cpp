@@ -138,7 +138,7 @@ TEST(OracleSearchedValues, OfAGainWithoutMuchOvershoot) {
   const Grid grid{.drive = drive, .axes = {linear(axis.path, gain, 2.0 * gain, 2)}};
   const Table table = evaluate(grid, std::array{Quantity::overshoot, Quantity::settling_time});
   EXPECT_NEAR(table[Quantity::overshoot][0], 0.1, of_stiffness);
-  const Answer answer = analyse(with(drive, axis.path, 2.0 * gain), {.step = 0.02});
+  const Answer answer = analyse(with(drive, axis.path, 2.0 * gain), {.step = true});
   EXPECT_NEAR(answer.value(Quantity::overshoot).value(), table[Quantity::overshoot][1], 1e-9);
   EXPECT_NEAR(answer.value(Quantity::settling_time).value(), table[Quantity::settling_time][1],
               1e-9);
@@ -336,7 +336,7 @@ Target with_condition(Target target, const Target& condition) {
 
 bool is_kept(const Target& condition, const Task& task, double value) {
   const Drive drive = with(task.drive, task.text, value);
-  const Wanted wanted = wanted_for(condition, task.drive);
+  const Wanted wanted = wanted_for(condition);
   if (condition.no_runaway) return is_met(condition, analyse(drive, wanted));
   Answer figures;
   add_figures(drive, wanted, figures, no_progress());

@@ -106,14 +106,14 @@ TEST(Target, NarrowsALimitThatIsGivenTwice) {
 TEST(Target, AsksForWhatItsLimitsAreOf) {
   const Drive drive = normal_form(0.2, 1.0, 0.3, 0.01);
   const auto of = [&](Quantity quantity) {
-    return wanted_for(Target{}.require(quantity, {0.0, 1.0}), drive);
+    return wanted_for(Target{}.require(quantity, {0.0, 1.0}));
   };
   EXPECT_FALSE(of(Quantity::static_error).borders);
   EXPECT_TRUE(of(Quantity::amplitude).borders);
   EXPECT_TRUE(of(Quantity::ceiling).ceiling);
   EXPECT_TRUE(of(Quantity::phase_margin).loop);
   EXPECT_EQ(of(Quantity::settling_time).step, 0.1);  // ten gaps
-  const Wanted rest = wanted_for(always_at_rest(), drive);
+  const Wanted rest = wanted_for(always_at_rest());
   EXPECT_FALSE(rest.borders || rest.ceiling || rest.loop || rest.step);
 }
 

@@ -280,7 +280,7 @@ void expect_missed(const Drive& drive, std::string_view parameter, const Bounds&
     if (narrowed.contains(value)) continue;
     Drive changed = drive;
     set_on(axis, changed, value);
-    EXPECT_FALSE(is_met(target, analyse(changed, wanted_for(target, drive)))) << value;
+    EXPECT_FALSE(is_met(target, analyse(changed, wanted_for(target)))) << value;
   }
 }
 

@@ -34,7 +34,7 @@ Grid grid_of_searched_drives() {
 std::vector<PlaceKind> kinds_of(const Grid& grid, const std::optional<Target>& target) {
   const Family family(grid);
   std::vector<PlaceKind> kinds(grid.size());
-  evaluate(family, rows_of(grid, 0, grid.size()), asked_for_kinds(family, target, kinds));
+  evaluate(family, rows_of(grid, 0, grid.size()), asked_for_kinds(target, kinds));
   return kinds;
 }
 
@@ -99,7 +99,7 @@ bool meets(const Grid& grid, const MapPoint& shares, const Target& target) {
   const MapPoint place = at_shares(grid, shares);
   Drive drive = grid.drive;
   set_on(grid.axes, drive, std::array{place.y, place.x});
-  return is_met(target, analyse(drive, wanted_for(target, grid.drive)));
+  return is_met(target, analyse(drive, wanted_for(target)));
 }
 
 /// The region that meets the target is the one that does at random places, but next to its border,
