@@ -237,6 +237,11 @@ std::vector<Fault> named_as_typed(std::vector<Fault> faults, const ServoOptions&
       fault.path = "--sensor";
       fault.where.clear();
     }
+    for (std::size_t i = 0; i < options.asked.size(); ++i) {
+      if (!options.asked[i] || fault.path != specification_options[i].path) continue;
+      fault.path = specification_options[i].name;
+      fault.where.clear();
+    }
     for (std::size_t i = 0; i < options.numbers.size(); ++i) {
       const std::optional<std::string>& typed = options.numbers[i];
       const NormalFormNumber& number = normal_form_numbers[i];

@@ -363,6 +363,18 @@ struct Without {
   std::optional<double> error{};           ///< rad, Quantity::error of it; empty if unknown
 };
 
+enum class Fulfilment : std::uint8_t { met, not_met, not_known };
+
+/// Whether a drive keeps its Specification::error.
+struct SpecificationAnswer {
+  double permitted = 0.0;                             ///< rad
+  Fulfilment small = Fulfilment::not_known;           ///< where small disturbances lead
+  Fulfilment if_disturbed = Fulfilment::not_known;    ///< wherever a start leads
+  std::optional<double> excess{};  ///< rad, by which Quantity::error exceeds it; empty if it is kept
+  /// Without which the error would be smallest; empty if it is kept, or no cause is known.
+  std::optional<Cause> cause{};
+};
+
 struct Answer {
   Verdict verdict = Verdict::undecided;            ///< what the motion ends in
   Certainty certainty = Certainty::searched;       ///< of the verdict
@@ -389,6 +401,7 @@ struct Answer {
   /// then bisected. A step between those of the grid may lead elsewhere.
   std::vector<Threshold> thresholds{};
   std::vector<Without> without{};  ///< if wanted: each cause that the drive has
+  std::optional<SpecificationAnswer> specification{};  ///< if the drive has one
   std::optional<SearchRecord> search{};  ///< empty in closed form
   std::vector<Note> notes{};             ///< what a reader should know
 
@@ -415,6 +428,8 @@ struct Answer {
 [[nodiscard]] const char* name_of(Stability stability);
 /// "no limit", "dead band", "torque limit".
 [[nodiscard]] const char* name_of(RestKind kind);
+/// "met", "not met", "not known".
+[[nodiscard]] const char* name_of(Fulfilment fulfilment);
 /// "gap", "dry friction", "integral action", "delay", "encoder", "load torque".
 [[nodiscard]] const char* name_of(Cause cause);
 /// "closed form", "general".

@@ -84,6 +84,11 @@ const char* name_of(RestKind kind) {
   return names[kind];
 }
 
+const char* name_of(Fulfilment fulfilment) {
+  constexpr Names<Fulfilment::not_known> names("met", "not met", "not known");
+  return names[fulfilment];
+}
+
 const char* name_of(Cause cause) {
   constexpr Names<Cause::load_torque> names("gap", "dry friction", "integral action", "delay",
                                             "encoder", "load torque");

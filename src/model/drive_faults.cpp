@@ -86,6 +86,12 @@ void check_torques(RangeCheck& check, const Drive& drive) {
   }
 }
 
+void check_specification(RangeCheck& check, const Drive& drive) {
+  if (drive.specification.step == 0.0) {
+    check.refuse("specification.step", "0 rad", "must be an angle other than 0");
+  }
+}
+
 void check_normal_form(RangeCheck& check, const Drive& drive) {
   const auto* rigid = std::get_if<RigidContact>(&drive.contact);
   const double restitution = rigid == nullptr ? 0.0 : rigid->restitution;
@@ -403,6 +409,7 @@ std::vector<Fault> faults(const Drive& drive, drive::ReducedDrive& reduced) {
     if (double* number = given_number(parameter.slot(mended))) *number = 0.5;  // in every range
   }
   check_torques(check, drive);
+  check_specification(check, drive);
   check_error_shape(check, drive);
   check_gravity(check, drive);
   check_columns(check, drive);

@@ -109,18 +109,10 @@ Value error_in_closed_form(const Answer& answer, bool is_disturbed) {
 /// Where the smallest displacements of both shafts lead.
 Value error(const Answer& answer) {
   if (!answer.search) return error_in_closed_form(answer, false);
-  double least = infinity;
-  const auto offset = [&](const StartOutcome& start) {
-    return std::abs(start.load_position - answer.search->reference);
-  };
-  for (const StartOutcome& start : answer.search->starts) {
-    if (offset(start) > 0.0) least = std::min(least, offset(start));
-  }
-  constexpr double same = 1.0 + 1e-9;
-  Value largest = std::isinf(least) ? std::nullopt : Value(0.0);
-  for (const StartOutcome& start : answer.search->starts) {
-    if (offset(start) <= 0.0 || offset(start) > same * least) continue;
-    largest = larger(largest, error_of(start, answer));
+  const std::vector<std::size_t> smallest = smallest_starts(*answer.search);
+  Value largest = smallest.empty() ? std::nullopt : Value(0.0);
+  for (const std::size_t i : smallest) {
+    largest = larger(largest, error_of(answer.search->starts[i], answer));
   }
   return largest;
 }
@@ -254,6 +246,23 @@ static_assert(are_in_order());
 }  // namespace quantity_rows
 
 using quantity_rows::entries;
+
+std::vector<std::size_t> smallest_starts(const SearchRecord& search) {
+  const auto offset = [&](const StartOutcome& start) {
+    return std::abs(start.load_position - search.reference);
+  };
+  double least = infinity;
+  for (const StartOutcome& start : search.starts) {
+    if (offset(start) > 0.0) least = std::min(least, offset(start));
+  }
+  constexpr double same = 1.0 + 1e-9;
+  std::vector<std::size_t> smallest;
+  for (std::size_t i = 0; i < search.starts.size(); ++i) {
+    const double here = offset(search.starts[i]);
+    if (here > 0.0 && here <= same * least) smallest.push_back(i);
+  }
+  return smallest;
+}
 
 const QuantityEntry& entry_of(Quantity quantity) noexcept {
   return entries[static_cast<std::size_t>(quantity)];

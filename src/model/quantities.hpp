@@ -1,7 +1,9 @@
 // Reads each quantity from an answer, and gives its dimension.
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "gearlash/answer.hpp"
 #include "gearlash/quantity.hpp"
@@ -18,6 +20,10 @@ struct QuantityEntry {
   std::optional<double> (*value)(const Answer& answer) = nullptr;
   std::string_view older_name{};  ///< also accepted
 };
+
+/// Of the starts of a search, those with the smallest displacement of both shafts, on every side and
+/// face: Quantity::error is that of their ends.
+std::vector<std::size_t> smallest_starts(const SearchRecord& search);
 
 const QuantityEntry& entry_of(Quantity quantity) noexcept;
 

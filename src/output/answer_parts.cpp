@@ -252,12 +252,10 @@ std::string mesh_torque_alone(const AnswerReport& report) {
 
 }  // namespace
 
-std::optional<double> AnswerReport::specification() const { return drive.specification.error; }
-
 std::optional<double> AnswerReport::widest_backlash() const {
-  if (!answer.ceiling || !specification()) return std::nullopt;
+  if (!answer.ceiling || !drive.specification.error) return std::nullopt;
   const double backlash = drive.servo ? drive.servo->backlash : drive.gearbox.backlash;
-  return answer.ceiling->widest_backlash(*specification(), backlash);
+  return answer.ceiling->widest_backlash(*drive.specification.error, backlash);
 }
 
 std::string ceiling_text(const AnswerReport& report) {
@@ -288,16 +286,16 @@ std::string ceiling_text(const AnswerReport& report) {
 }
 
 std::string specification_text(const AnswerReport& report) {
-  if (!report.specification() || !report.answer.ceiling) return "";
+  if (!report.drive.specification.error || !report.answer.ceiling) return "";
   const Ceiling& ceiling = *report.answer.ceiling;
   if (!ceiling.load) return "";  // the reason stands where the ceiling would be
-  const std::string wanted = AnswerUnits(report, usual_digits).short_swing(*report.specification());
+  const std::string wanted = AnswerUnits(report, usual_digits).short_swing(*report.drive.specification.error);
   if (const std::optional<double> widest = report.widest_backlash()) {
     return further_paragraph(fmt::format(
         "Specification: every backlash up to {} provably keeps the load within {} in the end. This "
         "drive {}.",
         lower_bound_text(*widest, report), wanted,
-        *ceiling.load <= *report.specification() ? "meets it" : "is not proved to meet it"));
+        *ceiling.load <= *report.drive.specification.error ? "meets it" : "is not proved to meet it"));
   }
   return further_paragraph(
       fmt::format("Specification: no backlash is proved to keep the load within {}: what else "

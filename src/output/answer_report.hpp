@@ -44,8 +44,6 @@ struct AnswerReport {
   std::optional<Jacobian> sensitivity{};  ///< derivatives, on request
   std::optional<MeasuredHunting> measured{};  ///< to be compared with every motion found
 
-  [[nodiscard]] std::optional<double> specification()
-      const;  ///< rad, the error that is permitted in the end
   [[nodiscard]] std::optional<double> widest_backlash()
       const;  ///< rad, that provably keeps the specification; empty where none is proved
   [[nodiscard]] std::vector<MotionBesideMeasured> beside_measured()

@@ -19,6 +19,7 @@
 #include "closed_form/drive_box.hpp"
 #include "general/attractors/search_setting.hpp"
 #include "model/proportional_servo.hpp"
+#include "question/causes.hpp"
 #include "question/contradictions.hpp"
 #include "question/drive_notes.hpp"
 #include "question/loop/ceiling/ceiling.hpp"
@@ -291,46 +292,6 @@ Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive
 
 namespace {
 
-/// Whether the motion that a headline names is of so few encoder steps that they may be its cause.
-bool is_of_few_steps(const Answer& answer) {
-  std::optional<double> steps;
-  if (const Cycle* cycle = answer.largest_stable()) {
-    steps = cycle->encoder_steps;
-  } else if (!answer.irregular.empty()) {
-    steps = answer.irregular.front().encoder_steps;
-  }
-  return steps && *steps <= steps_of_quantization && answer.verdict != Verdict::forced;
-}
-
-/// The first, the middle and the last start that lead to swings.
-std::vector<drive::ShaftStates> starts_that_swing(const drive::AttractorSearch& search) {
-  std::vector<drive::ShaftStates> all = of_each(
-      those_of(search.outcomes, [](const drive::Outcome& outcome) { return swings(outcome.end); }),
-      &drive::Outcome::start);
-  if (all.size() > 3) all = {all.front(), all[all.size() / 2], all.back()};
-  return all;
-}
-
-/// Answer::is_quantization. The first start that hunts without the encoder's steps decides.
-std::optional<bool> is_quantization(const Drive& drive, const drive::AttractorSearch& search,
-                                    const Wanted& wanted, Progress& progress) {
-  Drive exact = drive;
-  exact.sensor.encoder = {};
-  exact.sensor.speed_encoder = {};
-  SearchScope scope{.is_enough = [](const auto& so_far) { return so_far.swings(); },
-                    .starts = starts_that_swing(search)};
-  const Answer answer =
-      analyse_in_full(exact,
-                      {.proofs = false, .borders = false, .motion_bytes = wanted.motion_bytes},
-                      progress, scope)
-          .answer;
-  if (answer.largest_stable() != nullptr || !answer.irregular.empty()) return false;
-  if (answer.search && !answer.search->is_complete) return std::nullopt;
-  const bool rests = is_at_rest(answer.verdict) ||
-                     (answer.verdict == Verdict::runs_away_if_disturbed && answer.rest);
-  return rests ? std::optional(true) : std::nullopt;
-}
-
 bool has_torque_limit(const drive::ReducedDrive& drive) {
   return std::isfinite(drive.torque_limit) || std::isfinite(drive.winding.torque_limit);
 }
@@ -455,9 +416,11 @@ Analysis analyse_in_full(const SoundDrive& sound, const Wanted& wanted, Progress
   }
   // The motion from which a ceiling is measured stands in the end, unless a sine drives it.
   if (!is_driven(analysis.reduced)) withdraw_if_contradictory(analysis.answer);
-  if (wanted.causes && analysis.search && is_of_few_steps(analysis.answer)) {
-    analysis.answer.is_quantization = is_quantization(drive, *analysis.search, wanted, progress);
+  if (wanted.causes && !(analysis.answer.search && !analysis.answer.search->is_complete)) {
+    analysis.answer.without = without_causes(drive, analysis, wanted, progress);
+    analysis.answer.is_quantization = is_quantization(analysis.answer);
   }
+  analysis.answer.specification = judged_specification(drive, analysis.answer);
   std::vector<Note> notes = notes_on(sound);
   if (!proves()) {
     take_for_computed(analysis.answer);

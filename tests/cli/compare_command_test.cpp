@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <set>
 #include <string>
 
@@ -117,7 +118,7 @@ TEST(CompareCommand, TakesAnAxisOfWordsAndOfNumbers) {
   EXPECT_EQ(printed["axis"]["path"], "gearbox.backlash");
   EXPECT_EQ(printed["axis"]["values"][2], 0.15);
   // All make the step of the first.
-  EXPECT_EQ(printed["drives"][2]["answer"]["step"]["step"], 0.5);
+  EXPECT_EQ(printed["drives"][2]["answer"]["step"]["step"], std::numbers::pi / 180.0);
 }
 
 TEST(CompareCommand, PutsFilesSideBySide) {
@@ -282,7 +283,7 @@ TEST(CompareCommand, DrawsTheStepsWithTheirNames) {
   const std::string drawn = file_text(picture);
   EXPECT_THAT(drawn, HasSubstr("load: hunts: ±0.0819 rad at 2.26 Hz"));
   EXPECT_THAT(drawn, HasSubstr("motor: cannot hunt"));
-  EXPECT_THAT(drawn, HasSubstr("step of 1 rad"));
+  EXPECT_THAT(drawn, HasSubstr("step of 0.01745 rad"));
 }
 
 // ---- bad input ----------------------------------------------------------------------------------

@@ -236,7 +236,7 @@ restitution = 1.5
 )toml"),
       ElementsAre(
           "s.toml:1:2: moter = [moter]: is not a section: must be one of servo, motor, gearbox, "
-          "load, contact, sensor, controller, sampling, reference, load_torque, loop, joint, "
+          "load, contact, sensor, controller, sampling, reference, load_torque, specification, loop, joint, "
           "actuator (did you mean "
           "motor?)",
           "s.toml:2:1: motor.back_emf_constant is missing: must be voltage per angular "

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/lists.hpp"
+
 namespace gearlash::drive {
 namespace {
 
@@ -48,6 +50,12 @@ PeriodicOrbit without_spare_multipliers(const SearchSetting& setting, PeriodicOr
                                                           // ends it
   }
   return orbit;
+}
+
+bool stays_apart(const SearchSetting& setting, const PeriodicOrbit& orbit) {
+  return all_of(orbit.events, [&](const Event& event) {
+    return setting.built.modes.mode(event.mode).contact == ContactState::apart;
+  });
 }
 
 double hardest_impact(const SearchSetting& setting, const PeriodicOrbit& orbit) {
@@ -110,6 +118,9 @@ FoundCycle measured(const SearchSetting& setting, const PeriodicOrbit& orbit,
   cycle.center = load.middle();
   const Extent error = setting.error ? extent_of(samples(motion, *setting.error)) : load;
   cycle.error = std::max(std::abs(error.low), std::abs(error.high));
+  if (!load_moves && !setting.error && stays_apart(setting, orbit)) {
+    cycle.error = std::max(cycle.error, error_beside(motor, setting.drive));
+  }
   cycle.centers.include(cycle.center);
   cycle.amplitudes.include(cycle.amplitude);
   cycle.frequency = 2.0 * std::numbers::pi / orbit.period;

@@ -114,6 +114,9 @@ Irregularity irregularity_of(const Watch& watch, const Stretch& stretch,
   found.mean_center = found.is_motor_alone ? found.center : mean_middle(turns);
   constexpr double rarely = 1e-3;
   found.error = size_exceeded_for(rarely, setting.error ? after(watch.error, from) : of_load);
+  if (found.is_motor_alone && !setting.error) {
+    found.error = std::max(found.error, error_beside(extent_of(of_motor), setting.drive));
+  }
   found.watched = stretch.time - from;
   const double middle = extent_of(last).middle();
   const Spread period = spread_of_periods(

@@ -153,9 +153,7 @@ class StretchObserver : public hybrid::MotionObserver {
         load_(setting.load, watch.load),
         motor_(setting.motor, watch.motor),
         speeds_{setting.load.speed, setting.motor.speed} {
-    if (!setting.error) return;
-    error_.emplace(*setting.error, watch.error);
-    speeds_.push_back(setting.error->speed);
+    if (setting.error) error_.emplace(*setting.error, watch.error);
   }
 
   const std::vector<hybrid::AffineForm>& watched() const override { return speeds_; }

@@ -159,6 +159,12 @@ double held_length(const ReducedDrive& drive) {
   return (drive.motor.friction.breakaway + drive.load.friction.breakaway) / stiffness;
 }
 
+double error_beside(const Extent& motor, const ReducedDrive& drive) {
+  if (drive.sensing.load_share_of_position > 0.0) return 0.0;
+  const double half_gap = 0.5 * drive.backlash;
+  return std::max(std::abs(motor.high - half_gap), std::abs(motor.low + half_gap));
+}
+
 bool is_mirrored(const ReducedDrive& drive) {
   const bool is_constant = std::holds_alternative<double>(drive.reference);
   const auto* torque = std::get_if<double>(&drive.load_torque);

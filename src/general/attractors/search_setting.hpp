@@ -49,6 +49,10 @@ SearchSetting scaled(const SearchSetting& setting, const hybrid::Trajectory& mot
 /// shafts. 0 without friction, or without such a gain.
 double held_length(const ReducedDrive& drive);
 
+/// rad: the largest error of a load that stands, and is not measured, while its motor moves within
+/// the gap. Any place that the motor does not reach will do. 0 of a load that is measured.
+double error_beside(const Extent& motor, const ReducedDrive& drive);
+
 /// Whether motion to one side is the mirror image of motion to the other.
 bool is_mirrored(const ReducedDrive& drive);
 /// Whether its encoders read the mirror image of a position about the reference as the mirror image

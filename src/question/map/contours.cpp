@@ -69,11 +69,11 @@ Side side_of(double value, double level) {
 constexpr std::array coarse_digits = {1.0, 2.0, 5.0};
 constexpr std::array fine_digits = {1.0, 1.5, 2.0, 3.0, 5.0, 7.0};
 
-constexpr double rounding = 1e-9;
+constexpr double of_rounding = 1e-9;
 
 std::vector<double> even_levels(double low, double high) {
   constexpr double most = 10.0;
-  const double step = round_number_from((high - low) / most, coarse_digits, rounding);
+  const double step = round_number_from((high - low) / most, coarse_digits, of_rounding);
   std::vector<double> levels;
   for (double i = std::ceil(low / step); i * step <= high; i += 1.0) levels.push_back(i * step);
   return levels;
@@ -82,8 +82,8 @@ std::vector<double> even_levels(double low, double high) {
 std::vector<double> levels_by_factors(double low, double high, std::span<const double> digits) {
   constexpr double more = 1.0 + 1e-6;
   std::vector<double> levels;
-  for (double level = round_number_from(low, digits, rounding); level <= high;
-       level = round_number_from(more * level, digits, rounding)) {
+  for (double level = round_number_from(low, digits, of_rounding); level <= high;
+       level = round_number_from(more * level, digits, of_rounding)) {
     levels.push_back(level);
   }
   return levels;

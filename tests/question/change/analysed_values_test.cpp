@@ -149,6 +149,7 @@ TEST(EdgeSearchedValues, OfADriveWithoutAGapAreThoseOfItsLoopAndOfNoStep) {
   Drive drive = second_order();
   drive.motor.kind = TorqueControl{};
   drive.gearbox.backlash = 0.1;
+  drive.specification.step = 1.0;
   const Axis axis = linear("gearbox.backlash", 0.0, 0.2, 3);
   const FeasibleValues loop =
       values(drive, axis, Target{}.require(Quantity::bandwidth, {0.1, 100.0}));

@@ -104,7 +104,6 @@ TEST(Target, NarrowsALimitThatIsGivenTwice) {
 }
 
 TEST(Target, AsksForWhatItsLimitsAreOf) {
-  const Drive drive = normal_form(0.2, 1.0, 0.3, 0.01);
   const auto of = [&](Quantity quantity) {
     return wanted_for(Target{}.require(quantity, {0.0, 1.0}));
   };
@@ -112,7 +111,7 @@ TEST(Target, AsksForWhatItsLimitsAreOf) {
   EXPECT_TRUE(of(Quantity::amplitude).borders);
   EXPECT_TRUE(of(Quantity::ceiling).ceiling);
   EXPECT_TRUE(of(Quantity::phase_margin).loop);
-  EXPECT_EQ(of(Quantity::settling_time).step, 0.1);  // ten gaps
+  EXPECT_TRUE(of(Quantity::settling_time).step);
   const Wanted rest = wanted_for(always_at_rest());
   EXPECT_FALSE(rest.borders || rest.ceiling || rest.loop || rest.step);
 }
