@@ -32,6 +32,7 @@ constexpr char limit_cycle_examples[] =
 struct LimitCycleOptions : QuestionOptions {
   std::string measured;
   bool brief = false;
+  bool verbose = false;
   bool margins = false;
   std::vector<std::string> parameters;  ///< of the margins
   bool sensitivities = false;
@@ -89,6 +90,8 @@ void add_margins(Result& result, const Drive& drive, const std::vector<Axis>& ax
 
 Result analysed(const WrittenDrive& written, const Provenance& provenance, LimitedWork& work) {
   const Wanted wanted{.ceiling = true,
+                      .loop = true,
+                      .step = true,
                       .causes = true,
                       .motion_bytes = bytes_of_motion(work.limits())};
   Result result{.analysis = analyse_in_full(written.drive, wanted,
@@ -121,7 +124,7 @@ std::optional<MeasuredHunting> read_hunting(const std::string& text) {
 std::string printed(const Result& result, const LimitCycleOptions& options) {
   if (options.format == "json") return answer_json(result.report);
   if (options.brief) return headline(result.report) + "\n";
-  return with_bold_headline(answer_text(result.report));
+  return with_bold_headline(answer_text(result.report, options.verbose ? Detail::all : Detail::usual));
 }
 
 ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
@@ -163,6 +166,8 @@ void add_limit_cycle_command(const Command& app, Action& action) {
   add_servo_or_drive_options(command, options.servo);
   add_format_option(command, options.format);
   command.add_flag("--brief", options.brief, "Print the headline alone");
+  command.add_flag("--verbose", options.verbose,
+                   "Print every number of every motion, of the ceiling and of the drive");
   add_limit_options(command, options.limits);
   command.add_option(
       "--measured AMPLITUDE,FREQUENCY", options.measured,

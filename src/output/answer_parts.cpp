@@ -197,6 +197,12 @@ std::string meaning_text(const AnswerReport& report) {
   return report.answer.verdict == Verdict::cannot_hunt ? meaning_by_energy(report.answer) : "";
 }
 
+std::string short_meaning_text(const AnswerReport& report) {
+  if (!report.answer.search || report.answer.engine != Engine::general) return meaning_text(report);
+  return "Searched from " + starts_text(report.answer.search->starts.size()) + ": " +
+         ends_text(report.answer) + ". A search is no proof: it misses what no start leads to.";
+}
+
 // ---- the ceiling --------------------------------------------------------------------------------
 
 namespace {
@@ -209,13 +215,6 @@ std::string torque_text(double torque, const AnswerReport& report) {
 std::string remark_on_limit(const Ceiling& ceiling) {
   if (!ceiling.meets_limit) return "";
   return *ceiling.meets_limit ? "below the torque limit" : "the torque limit may be reached";
-}
-
-/// Rounded down.
-std::string lower_bound_text(double radians, const AnswerReport& report) {
-  const AngleUnit& unit = report.angle;
-  return significant(rounded_down(unit.from_radians(radians), usual_digits), usual_digits) + " " +
-         unit.name;
 }
 
 /// Whether the reference or the load torque moves until a time and then goes on as it is analysed.
@@ -236,10 +235,6 @@ std::string safe_starts_text(const AnswerReport& report) {
       lower_bound_text(starts->position, report), lower_bound_text(starts->speed, report)));
 }
 
-std::string below_limit_text(const Ceiling& ceiling) {
-  return ceiling.is_below_limit ? ", if its torque stays below the limit" : "";
-}
-
 /// The bound of the mesh torque of a drive whose swing has none.
 std::string mesh_torque_alone(const AnswerReport& report) {
   const Ceiling& ceiling = *report.answer.ceiling;
@@ -251,6 +246,16 @@ std::string mesh_torque_alone(const AnswerReport& report) {
 }
 
 }  // namespace
+
+std::string lower_bound_text(double radians, const AnswerReport& report) {
+  const AngleUnit& unit = report.angle;
+  return significant(rounded_down(unit.from_radians(radians), usual_digits), usual_digits) + " " +
+         unit.name;
+}
+
+std::string below_limit_text(const Ceiling& ceiling) {
+  return ceiling.is_below_limit ? ", if its torque stays below the limit" : "";
+}
 
 std::optional<double> AnswerReport::widest_backlash() const {
   if (!answer.ceiling || !drive.specification.error) return std::nullopt;
@@ -283,24 +288,6 @@ std::string ceiling_text(const AnswerReport& report) {
   }
   return "\nCeiling: what no motion exceeds in the end" + below_limit_text(ceiling) +
          " (proved)\n" + table_text(rows) + safe_starts_text(report);
-}
-
-std::string specification_text(const AnswerReport& report) {
-  if (!report.drive.specification.error || !report.answer.ceiling) return "";
-  const Ceiling& ceiling = *report.answer.ceiling;
-  if (!ceiling.load) return "";  // the reason stands where the ceiling would be
-  const std::string wanted = AnswerUnits(report, usual_digits).short_swing(*report.drive.specification.error);
-  if (const std::optional<double> widest = report.widest_backlash()) {
-    return further_paragraph(fmt::format(
-        "Specification: every backlash up to {} provably keeps the load within {} in the end. This "
-        "drive {}.",
-        lower_bound_text(*widest, report), wanted,
-        *ceiling.load <= *report.drive.specification.error ? "meets it" : "is not proved to meet it"));
-  }
-  return further_paragraph(
-      fmt::format("Specification: no backlash is proved to keep the load within {}: what else "
-                  "disturbs the loop may move it further.",
-                  wanted));
 }
 
 // ---- measured hunting ---------------------------------------------------------------------------
@@ -343,7 +330,7 @@ std::string measured_text(const AnswerReport& report) {
   if (!report.measured) return "";
   const AnswerUnits units(report, usual_digits);
   const auto motion = [&](double amplitude, double frequency) {
-    return units.short_swing(amplitude) + " at " + units.number(frequency) + " Hz";
+    return units.swing(amplitude) + " at " + units.number(frequency) + " Hz";
   };
   const MeasuredHunting& measured = *report.measured;
   const std::vector<MotionBesideMeasured> all = report.beside_measured();

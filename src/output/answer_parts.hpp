@@ -18,9 +18,8 @@ struct AnswerUnits {
   std::string angle(double radians) const { return angle_text(radians, angle_unit, digits); }
   /// "0.1 … 0.2 rad", or one number where the ends hardly differ.
   std::string angles(const Bounds& range) const;
+  /// "±0.1 rad".
   std::string swing(double amplitude) const { return swing_text(amplitude, angle_unit, digits); }
-  /// "±0.1 rad", in the author's unit alone.
-  std::string short_swing(double amplitude) const { return "±" + angle(amplitude); }
   std::string time(double seconds) const { return time_text(seconds, is_normalized, digits); }
   std::string in(double value, const char* normalized, const char* otherwise) const {
     return number(value) + (is_normalized ? normalized : otherwise);
@@ -31,14 +30,27 @@ struct AnswerUnits {
   int digits;
 };
 
+/// rad; that of the normal form of a drive that has one.
+double backlash_of(const AnswerReport& report);
+
+/// Whether the load stands on the cycle.
+bool is_of_motor_alone(const Cycle& cycle);
+
+/// All tables of cycles, irregular motion, rest, ceiling, servo and gains.
+std::string details_text(const AnswerReport& report);
+
+/// The extent of a search in two lines, or what a closed form means.
+std::string short_meaning_text(const AnswerReport& report);
 /// What follows from the verdict and how certain it is; for a search also its extent.
 std::string meaning_text(const AnswerReport& report);
 
 /// A table of the ceiling with its terms, or why there is none. Empty if it was not computed.
 std::string ceiling_text(const AnswerReport& report);
 
-/// The widest backlash that provably meets the specification, or why none does. Empty without one.
-std::string specification_text(const AnswerReport& report);
+/// Of angles, rounded down: "1.2 arcmin".
+std::string lower_bound_text(double radians, const AnswerReport& report);
+/// ", if its torque stays below the limit", where a ceiling needs that.
+std::string below_limit_text(const Ceiling& ceiling);
 
 /// How far a measured motion is from each that does not fade. Empty without a measurement.
 std::string measured_text(const AnswerReport& report);

@@ -65,9 +65,12 @@ bool is_of_motor_alone(const Cycle& cycle);
 /// growth at rest 0.43 < 1".
 std::string headline(const AnswerReport& report);
 
-/// The headline; every cycle, rest and irregular motion with its numbers; the drive; and the
-/// meaning of the answer. Ends with a newline.
-std::string answer_text(const AnswerReport& report);
+/// How much a report has: the first 40 lines that a reader needs, or every number.
+enum class Detail : unsigned char { usual, all };
+
+/// The headline; whether the specification is met; why: energy, causes, the linear loop, the step;
+/// rest, other motions, the ceiling, the search. Ends with a newline.
+std::string answer_text(const AnswerReport& report, Detail detail = Detail::usual);
 
 /// The report as JSON, in SI. Ends with a newline.
 std::string answer_json(const AnswerReport& report);

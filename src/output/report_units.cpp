@@ -4,10 +4,16 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 namespace gearlash {
 
-std::string significant(double value, int digits) { return fmt::format("{:.{}g}", value, digits); }
+std::string significant(double value, int digits) {
+  const std::string text = fmt::format("{:.{}g}", value, digits);
+  constexpr double long_number = 1e6;
+  const bool is_whole = std::abs(value) < long_number && text.find("e+") != std::string::npos;
+  return is_whole ? fmt::format("{:.0f}", std::stod(text)) : text;
+}
 
 namespace {
 
@@ -48,12 +54,7 @@ std::string frequency_text(double period, bool is_normalized, int digits) {
 }
 
 std::string swing_text(double amplitude, const AngleUnit& unit, int digits) {
-  const std::string radians = significant(amplitude, digits) + " rad";
-  if (unit.radians != 1.0) {
-    return "±" + angle_text(amplitude, unit, digits) + " (" + radians + ")";
-  }
-  const double degrees = amplitude * 180.0 / std::numbers::pi;
-  return fmt::format("±{} ({}°)", radians, significant(degrees, digits));
+  return "±" + angle_text(amplitude, unit, digits);
 }
 
 std::string swing_bound_text(double amplitude, const AngleUnit& unit, int digits) {

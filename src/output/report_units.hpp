@@ -16,7 +16,7 @@ struct Provenance {
 /// Of a result that a person reads beside others.
 inline constexpr int usual_digits = 4;
 
-/// The number with at most `digits` significant digits: "0.0814", "1.2e-05", "inf".
+/// The number with at most `digits` significant digits: "0.0814", "14200", "1.2e-05", "inf".
 std::string significant(double value, int digits);
 
 /// An upper bound: the next number of `digits` significant digits that is not below it.
@@ -38,7 +38,7 @@ std::string time_text(double seconds, bool is_normalized, int digits);
 /// "1.85 Hz"; for a normal form without a natural frequency "ω = 0.973 ω_n".
 std::string frequency_text(double period, bool is_normalized, int digits);
 
-/// An amplitude, the author's unit first: "±12.3 arcmin (0.00358 rad)", "±0.0814 rad (4.67°)".
+/// An amplitude: "±12.3 arcmin".
 std::string swing_text(double amplitude, const AngleUnit& unit, int digits);
 /// An upper bound of an amplitude in the author's unit, rounded up: "±12.4 arcmin".
 std::string swing_bound_text(double amplitude, const AngleUnit& unit, int digits);

@@ -419,6 +419,9 @@ Analysis analyse_in_full(const SoundDrive& sound, const Wanted& wanted, Progress
   if (wanted.causes && !(analysis.answer.search && !analysis.answer.search->is_complete)) {
     analysis.answer.without = without_causes(drive, analysis, wanted, progress);
     analysis.answer.is_quantization = is_quantization(analysis.answer);
+    if (auto note = note_on_wind_up(drive, analysis, progress)) {
+      analysis.answer.notes.push_back(std::move(*note));
+    }
   }
   analysis.answer.specification = judged_specification(drive, analysis.answer);
   std::vector<Note> notes = notes_on(sound);

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
+#include <variant>
 
 #include "base/lists.hpp"
 #include "base/overloaded.hpp"
+#include "base/range_check.hpp"
 #include "model/firmware.hpp"
 #include "model/quantities.hpp"
 #include "model/reduced_drive.hpp"
@@ -87,6 +90,7 @@ drive::ShaftStates fitted(drive::ShaftStates start, Cause cause) {
 struct TellingStarts {
   std::vector<drive::ShaftStates> all{};
   std::size_t smallest = 0;
+  std::vector<drive::ShaftStates> running_away{};  ///< the nearest
 };
 
 TellingStarts telling_starts(const Analysis& analysis) {
@@ -96,6 +100,10 @@ TellingStarts telling_starts(const Analysis& analysis) {
   starts.all = of_each(smallest_starts(*analysis.answer.search),
                        [&](std::size_t i) { return outcomes[i].start; });
   starts.smallest = starts.all.size();
+  const auto* const away = first_of(outcomes, [](const drive::Outcome& outcome) {
+    return outcome.end == drive::MotionEnd::diverges;
+  });
+  if (away != nullptr) starts.running_away = {away->start};
   const auto swinging =
       those_of(outcomes, [](const drive::Outcome& outcome) { return swings(outcome.end); });
   if (swinging.empty()) return starts;
@@ -128,7 +136,63 @@ Fulfilment fulfilment(const std::optional<double>& error, double permitted) {
   return *error <= permitted ? Fulfilment::met : Fulfilment::not_met;
 }
 
+/// The tracking time that anti-windup is usually given, s: the integral time of the law, which the
+/// member belongs to.
+struct AntiWindup {
+  double* tracking_time = nullptr;
+  double integral_time = 0.0;
+};
+
+AntiWindup missing_anti_windup(Drive& drive) {
+  if (drive.controller.firmware) return {};
+  return std::visit(
+      Overloaded{[](PID& law) {
+                   const bool winds_up = law.integral > 0.0 && law.tracking_time == 0.0;
+                   return winds_up ? AntiWindup{&law.tracking_time, law.proportional / law.integral}
+                                   : AntiWindup{};
+                 },
+                 [](CascadeController& law) {
+                   const bool winds_up = law.speed_integral > 0.0 && law.tracking_time == 0.0;
+                   return winds_up ? AntiWindup{&law.tracking_time, law.speed / law.speed_integral}
+                                   : AntiWindup{};
+                 },
+                 [](auto&) { return AntiWindup{}; }},
+      drive.controller.law);
+}
+
+bool runs_away(Verdict verdict) {
+  return verdict == Verdict::runs_away || verdict == Verdict::runs_away_if_disturbed;
+}
+
 }  // namespace
+
+std::optional<Note> note_on_wind_up(const Drive& drive, const Analysis& analysis,
+                                    Progress& progress) {
+  const TellingStarts starts = telling_starts(analysis);
+  const Without* proportional = first_of(analysis.answer.without, [](const Without& one) {
+    return one.cause == Cause::integral_action;
+  });
+  if (starts.running_away.empty() || proportional == nullptr || runs_away(proportional->verdict)) {
+    return std::nullopt;
+  }
+  std::string text =
+      "The drive winds up: its integral grows while the torque is at its limit, and throws it "
+      "farther than it came from. Anti-windup is the cure";
+  Drive cured = drive;
+  const AntiWindup missing = missing_anti_windup(cured);
+  if (missing.tracking_time != nullptr && missing.integral_time > 0.0) {
+    *missing.tracking_time = missing.integral_time;
+    const Verdict verdict =
+        analyse_in_full(cured, {.proofs = false, .borders = false}, progress,
+                        {.starts = starts.running_away})
+            .answer.verdict;
+    if (!runs_away(verdict) && verdict != Verdict::undecided) {
+      text += ": with controller.tracking_time = \"" + exact_text(1e3 * missing.integral_time) +
+              " ms\", the integral time, the same step does not run away";
+    }
+  }
+  return Note{"wind-up", text + "."};
+}
 
 std::optional<Drive> without(const Drive& drive, Cause cause) {
   Drive changed = drive;
@@ -155,6 +219,7 @@ std::vector<Without> without_causes(const Drive& drive, const Analysis& analysis
     const std::optional<Drive> changed = without(drive, cause);
     if (!changed) continue;
     scope.starts = of_each(starts.all, [&](const auto& start) { return fitted(start, cause); });
+    if (cause == Cause::integral_action) add_all(scope.starts, starts.running_away);
     const Answer answer =
         analyse_in_full(
             *changed,

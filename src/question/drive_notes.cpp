@@ -48,6 +48,15 @@ std::vector<Note> notes_on(const SoundDrive& sound) {
                      "near them, and less is proved on boundaries."});
   }
   if (drive.servo) return notes;
+  const drive::ReducedDrive& settled = sound.settled();
+  const auto* torque = std::get_if<double>(&settled.load_torque);
+  if (!has_dry_friction(settled) && settled.sensing.load_share_of_position == 0.0 &&
+      settled.backlash > 0.0 && torque != nullptr && *torque == 0.0) {
+    notes.push_back({"drifts-in-gap",
+                     "No dry friction is given, and the load is not measured: it drifts in its gap "
+                     "and may stop anywhere in it. Give motor.coulomb and load.coulomb; a no-load "
+                     "current gives the motor's."});
+  }
   const Motor& motor = drive.motor;
   if (drive.sensor.is_assumed) {
     notes.push_back(
