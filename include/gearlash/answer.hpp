@@ -315,8 +315,8 @@ struct LinearLoop {
   /// rad: the least, of all frequencies at which the loop has the gain 1, by which it may turn.
   std::optional<double> phase_margin{};
   std::optional<double> crossover{};  ///< Hz: the frequency of this margin
-  /// The factor, next to 1 as a ratio, by which the loop's gain may grow or must fall until the loop
-  /// is at the border of stability. Below 1 it is one by which the gain may fall.
+  /// The factor, next to 1 as a ratio, by which the loop's gain may grow or must fall until the
+  /// loop is at the border of stability. Below 1 it is one by which the gain may fall.
   std::optional<double> gain_margin{};
   std::optional<double> phase_crossover{};  ///< Hz: the frequency of this margin
   /// rad: the largest |reference − load| in the end of a reference that moves, a ramp or a sine.
@@ -358,19 +358,20 @@ enum class Cause : std::uint8_t {
 
 /// The same drive without one of them.
 struct Without {
-  Cause cause = Cause::gap;                ///< what is taken away
-  Verdict verdict = Verdict::undecided;    ///< of the starts that told of the drive's own
-  std::optional<double> error{};           ///< rad, Quantity::error of it; empty if unknown
+  Cause cause = Cause::gap;              ///< what is taken away
+  Verdict verdict = Verdict::undecided;  ///< of the starts that told of the drive's own
+  std::optional<double> error{};         ///< rad, Quantity::error of it; empty if unknown
 };
 
 enum class Fulfilment : std::uint8_t { met, not_met, not_known };
 
 /// Whether a drive keeps its Specification::error.
 struct SpecificationAnswer {
-  double permitted = 0.0;                             ///< rad
-  Fulfilment small = Fulfilment::not_known;           ///< where small disturbances lead
-  Fulfilment if_disturbed = Fulfilment::not_known;    ///< wherever a start leads
-  std::optional<double> excess{};  ///< rad, by which Quantity::error exceeds it; empty if it is kept
+  double permitted = 0.0;                           ///< rad
+  Fulfilment small = Fulfilment::not_known;         ///< where small disturbances lead
+  Fulfilment if_disturbed = Fulfilment::not_known;  ///< wherever a start leads
+  std::optional<double>
+      excess{};  ///< rad, by which Quantity::error exceeds it; empty if it is kept
   /// Without which the error would be smallest; empty if it is kept, or no cause is known.
   std::optional<Cause> cause{};
 };
@@ -400,10 +401,10 @@ struct Answer {
   /// Of a search beside which the drive also rests, or stays bounded: on the grid of its steps, and
   /// then bisected. A step between those of the grid may lead elsewhere.
   std::vector<Threshold> thresholds{};
-  std::vector<Without> without{};  ///< if wanted: each cause that the drive has
+  std::vector<Without> without{};                      ///< if wanted: each cause that the drive has
   std::optional<SpecificationAnswer> specification{};  ///< if the drive has one
-  std::optional<SearchRecord> search{};  ///< empty in closed form
-  std::vector<Note> notes{};             ///< what a reader should know
+  std::optional<SearchRecord> search{};                ///< empty in closed form
+  std::vector<Note> notes{};                           ///< what a reader should know
 
   /// The cycle that is seen in practice: the largest that is not unstable, or nullptr.
   [[nodiscard]] const Cycle* largest_stable() const noexcept;

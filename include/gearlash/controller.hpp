@@ -50,13 +50,13 @@ struct PID {
 /// f = 1/(filter s + 1) v,
 /// speed (w − f) + speed_integral ∫(w − f) dt + acceleration_feedforward r̈.
 struct CascadeController {
-  double position = 0.0;        ///< 1/s
-  double speed = 0.0;           ///< output s/rad
-  double speed_integral = 0.0;  ///< output/rad
-  double tracking_time = 0.0;   ///< s, ≥ 0, as above
-  double filter = 0.0;          ///< s, ≥ 0; of the measured speed
-  std::optional<double> speed_limit{};   ///< rad/s, > 0, of the speed that is asked for
-  double speed_feedforward = 0.0;        ///< share of the reference's speed, 0 … 1
+  double position = 0.0;                  ///< 1/s
+  double speed = 0.0;                     ///< output s/rad
+  double speed_integral = 0.0;            ///< output/rad
+  double tracking_time = 0.0;             ///< s, ≥ 0, as above
+  double filter = 0.0;                    ///< s, ≥ 0; of the measured speed
+  std::optional<double> speed_limit{};    ///< rad/s, > 0, of the speed that is asked for
+  double speed_feedforward = 0.0;         ///< share of the reference's speed, 0 … 1
   double acceleration_feedforward = 0.0;  ///< output s²/rad, ≥ 0
 
   bool operator==(const CascadeController&) const = default;

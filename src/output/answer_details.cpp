@@ -1,5 +1,3 @@
-#include "output/answer_parts.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 
 #include "base/lists.hpp"
 #include "model/gains.hpp"
+#include "output/answer_parts.hpp"
 #include "output/columns.hpp"
 
 namespace gearlash {

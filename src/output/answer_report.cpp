@@ -49,8 +49,8 @@ std::string specification_text(const AnswerReport& report) {
   if (!answer.specification) return "";
   const AnswerUnits units = units_of(report);
   const SpecificationAnswer& judged = *answer.specification;
-  std::string text = fmt::format("Specification, an error of {}: {}",
-                                 units.angle(judged.permitted), name_of(judged.small));
+  std::string text = fmt::format("Specification, an error of {}: {}", units.angle(judged.permitted),
+                                 name_of(judged.small));
   const std::optional<double> error = answer.value(Quantity::error);
   if (error) text += fmt::format("; the load ends up to {} off", error_words(error, units));
   if (judged.excess && !std::isinf(*judged.excess)) {
@@ -74,8 +74,7 @@ std::string specification_text(const AnswerReport& report) {
 // ---- motions ------------------------------------------------------------------------------------
 
 std::string cycle_row_text(const Cycle& cycle, const AnswerUnits& units) {
-  return units.swing(cycle.amplitude) +
-         (units.is_normalized ? ", period " : " at ") +
+  return units.swing(cycle.amplitude) + (units.is_normalized ? ", period " : " at ") +
          (units.is_normalized ? units.time(cycle.period) : units.number(cycle.frequency()) + " Hz");
 }
 
@@ -85,14 +84,15 @@ std::string motion_table(const AnswerReport& report) {
   if (cycle == nullptr) return "";
   const AnswerUnits units = units_of(report);
   const double backlash = backlash_of(report);
-  TextRows rows = {{"load", units.swing(cycle->amplitude),
-                    backlash > 0.0 ? units.number(cycle->amplitude / backlash) + " of the backlash"
-                                   : ""},
-                   {"motor", units.swing(cycle->motor_amplitude)},
-                   {"period", units.time(cycle->period),
-                    units.is_normalized ? "" : units.number(cycle->frequency()) + " Hz"}};
+  TextRows rows = {
+      {"load", units.swing(cycle->amplitude),
+       backlash > 0.0 ? units.number(cycle->amplitude / backlash) + " of the backlash" : ""},
+      {"motor", units.swing(cycle->motor_amplitude)},
+      {"period", units.time(cycle->period),
+       units.is_normalized ? "" : units.number(cycle->frequency()) + " Hz"}};
   constexpr double clearly = 1.01;
-  if (cycle->error > clearly * cycle->amplitude) rows.push_back({"largest error", units.angle(cycle->error)});
+  if (cycle->error > clearly * cycle->amplitude)
+    rows.push_back({"largest error", units.angle(cycle->error)});
   if (cycle->impact_speed > 0.0) {
     rows.push_back({"hardest impact", units.in(cycle->impact_speed, " rad ω_n", " rad/s")});
   }
@@ -113,8 +113,8 @@ std::string balance_text(const AnswerReport& report) {
   TextRows rows;
   const auto add = [&](const char* name, double part, double whole) {
     if (part == 0.0) return;
-    rows.push_back({name, units.in(part, " K rad²", " J"),
-                    fmt::format("{:.3g} %", 100.0 * part / whole)});
+    rows.push_back(
+        {name, units.in(part, " K rad²", " J"), fmt::format("{:.3g} %", 100.0 * part / whole)});
   };
   add("fed by the motor", energy.motor, energy.fed());
   add("fed by the load torque", energy.load_torque, energy.fed());
@@ -234,13 +234,14 @@ std::string step_text(const AnswerReport& report) {
   const AnswerUnits units = units_of(report);
   const StepResponse& step = *answer.step;
   const std::string band = units.swing(step.band);
-  const std::string text =
-      joined({step.rise_time ? "rises in " + units.time(*step.rise_time) : "does not rise",
-              step.overshoot && step.rise_time ? "overshoots by " + significant(100.0 * *step.overshoot, 3) + " %"
-                             : "",
-              step.settling_time ? "settles within " + band + " in " + units.time(*step.settling_time)
-                                 : "does not settle within " + band,
-              step.settling_time ? "" : "ends " + units.angle(std::abs(step.final_error)) + " off"});
+  const std::string text = joined(
+      {step.rise_time ? "rises in " + units.time(*step.rise_time) : "does not rise",
+       step.overshoot && step.rise_time
+           ? "overshoots by " + significant(100.0 * *step.overshoot, 3) + " %"
+           : "",
+       step.settling_time ? "settles within " + band + " in " + units.time(*step.settling_time)
+                          : "does not settle within " + band,
+       step.settling_time ? "" : "ends " + units.angle(std::abs(step.final_error)) + " off"});
   return "\nStep of " + units.angle(step.step) + "\n" + table_text({{text}});
 }
 
@@ -254,9 +255,9 @@ std::string short_rest_text(const AnswerReport& report) {
                     rest.certainty == Certainty::computed ? "all equilibria" : "where starts led"}};
   for (const RestPiece& piece : rest.pieces) {
     if (piece.kind == RestKind::no_limit) continue;
-    rows.push_back({piece.kind == RestKind::dead_band ? "load in the dead band"
-                                                      : "load at the torque limit",
-                    units.angles(piece.load)});
+    rows.push_back(
+        {piece.kind == RestKind::dead_band ? "load in the dead band" : "load at the torque limit",
+         units.angles(piece.load)});
   }
   if (rest.time) {
     rows.push_back({"time to rest, longest", units.time(rest.time->longest),
@@ -281,8 +282,8 @@ std::string short_ceiling_text(const AnswerReport& report) {
                      below_limit_text(ceiling) + " (proved)";
   if (ceiling.terms.size() > 1) {
     text += ": " + listed(ceiling.terms, [&](const CeilingTerm& term) {
-      return term.source + " " + angle(term.load);
-    });
+              return term.source + " " + angle(term.load);
+            });
   }
   return further_paragraph(text + ".");
 }
@@ -291,9 +292,9 @@ std::string short_ceiling_text(const AnswerReport& report) {
 
 /// Hints at results that further options add.
 std::string offer_text(const AnswerReport& report, Detail detail) {
-  const std::string text = listed(
-      std::array{detail == Detail::all ? "" : "--verbose",
-                 report.margin ? "" : "--margins", report.sensitivity ? "" : "--sensitivities"});
+  const std::string text =
+      listed(std::array{detail == Detail::all ? "" : "--verbose", report.margin ? "" : "--margins",
+                        report.sensitivity ? "" : "--sensitivities"});
   return text.empty() ? "" : "More: " + text + ".\n";
 }
 
@@ -359,8 +360,8 @@ AnswerReport report_of(const Drive& drive, const Answer& answer) {
 
 std::string answer_text(const AnswerReport& report, Detail detail) {
   const bool is_short_report = detail == Detail::usual;
-  std::string text = headline(report) + "\n" + notes_text(report, comes_first) +
-                     specification_text(report);
+  std::string text =
+      headline(report) + "\n" + notes_text(report, comes_first) + specification_text(report);
   if (is_short_report) text += motion_table(report);
   text += balance_text(report) + causes_text(report) + loop_text(report) + step_text(report);
   text += is_short_report

@@ -18,7 +18,9 @@ namespace {
 
 constexpr int headline_digits = 3;
 
-AnswerUnits headline_units(const AnswerReport& report) { return AnswerUnits(report, headline_digits); }
+AnswerUnits headline_units(const AnswerReport& report) {
+  return AnswerUnits(report, headline_digits);
+}
 
 std::string pace(const AnswerReport& report, double period) {
   if (report.is_normalized) {
@@ -35,7 +37,8 @@ std::string quantization_text(const AnswerReport& report, const std::optional<do
          (report.answer.is_quantization.value_or(false) ? ": quantization" : "");
 }
 
-/// ", up to 3 arcmin off": an error that the words before do not have. `known`: what they have, rad.
+/// ", up to 3 arcmin off": an error that the words before do not have. `known`: what they have,
+/// rad.
 std::string error_text(const AnswerReport& report, double error, double known) {
   constexpr double clearly = 1.05;
   if (!(error > clearly * known) || !std::isfinite(error)) return "";
@@ -229,7 +232,8 @@ std::string open_clause(const AnswerReport& report) {
 std::string certainty_clause(const Answer& answer) {
   if (answer.verdict == Verdict::undecided) return "";
   if (answer.certainty >= Certainty::enclosed) return " (proved)";
-  if (!answer.search) return " (computed)";
+  if (answer.certainty == Certainty::computed) return " (computed)";
+  if (!answer.search) return "";
   return fmt::format(" (found from {})", starts_text(answer.search->starts.size()));
 }
 

@@ -34,16 +34,15 @@ void take_dry_friction(Drive& drive) {
 
 void take_integral_action(Drive& drive) {
   drive = without_registers(drive);
-  std::visit(Overloaded{[](PID& law) {
-                          law.integral = law.tracking_time = 0.0;
-                          if (law.terms == PIDTerms::PI) law.terms = PIDTerms::P;
-                          if (law.terms == PIDTerms::PID) law.terms = PIDTerms::PD;
-                        },
-                        [](CascadeController& law) {
-                          law.speed_integral = law.tracking_time = 0.0;
-                        },
-                        [](auto&) {}},
-             drive.controller.law);
+  std::visit(
+      Overloaded{[](PID& law) {
+                   law.integral = law.tracking_time = 0.0;
+                   if (law.terms == PIDTerms::PI) law.terms = PIDTerms::P;
+                   if (law.terms == PIDTerms::PID) law.terms = PIDTerms::PD;
+                 },
+                 [](CascadeController& law) { law.speed_integral = law.tracking_time = 0.0; },
+                 [](auto&) {}},
+      drive.controller.law);
 }
 
 void take_delay(Drive& drive) {
@@ -182,10 +181,9 @@ std::optional<Note> note_on_wind_up(const Drive& drive, const Analysis& analysis
   const AntiWindup missing = missing_anti_windup(cured);
   if (missing.tracking_time != nullptr && missing.integral_time > 0.0) {
     *missing.tracking_time = missing.integral_time;
-    const Verdict verdict =
-        analyse_in_full(cured, {.proofs = false, .borders = false}, progress,
-                        {.starts = starts.running_away})
-            .answer.verdict;
+    const Verdict verdict = analyse_in_full(cured, {.proofs = false, .borders = false}, progress,
+                                            {.starts = starts.running_away})
+                                .answer.verdict;
     if (!runs_away(verdict) && verdict != Verdict::undecided) {
       text += ": with controller.tracking_time = \"" + exact_text(1e3 * missing.integral_time) +
               " ms\", the integral time, the same step does not run away";
@@ -221,10 +219,9 @@ std::vector<Without> without_causes(const Drive& drive, const Analysis& analysis
     scope.starts = of_each(starts.all, [&](const auto& start) { return fitted(start, cause); });
     if (cause == Cause::integral_action) add_all(scope.starts, starts.running_away);
     const Answer answer =
-        analyse_in_full(
-            *changed,
-            {.proofs = false, .borders = false, .motion_bytes = wanted.motion_bytes}, progress,
-            scope)
+        analyse_in_full(*changed,
+                        {.proofs = false, .borders = false, .motion_bytes = wanted.motion_bytes},
+                        progress, scope)
             .answer;
     if (answer.search && !answer.search->is_complete) break;
     Without one{cause, answer.verdict, answer.value(Quantity::error)};
@@ -246,8 +243,8 @@ std::optional<bool> is_quantization(const Answer& answer) {
   if (!steps || *steps > steps_of_quantization || answer.verdict == Verdict::forced) {
     return std::nullopt;
   }
-  const Without* exact = first_of(
-      answer.without, [](const Without& one) { return one.cause == Cause::encoder; });
+  const Without* exact =
+      first_of(answer.without, [](const Without& one) { return one.cause == Cause::encoder; });
   if (exact == nullptr || exact->verdict == Verdict::undecided) return std::nullopt;
   return !hunts(exact->verdict);
 }

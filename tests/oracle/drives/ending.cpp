@@ -393,6 +393,23 @@ Extremes extremes_between(const PlainDrive& drive, const ShaftReadings& start, d
   return found;
 }
 
+double error_exceeded_for(double share, const PlainDrive& drive, const ShaftReadings& start,
+                          double from, double until, const EndingOptions& options) {
+  EndingOptions coarse = options;
+  coarse.trace_period = std::max(options.trace_period, (until - from) / 200.0);
+  Run run(drive, start, coarse);
+  run.go_on(from);
+  constexpr std::size_t steps = 50'000;
+  std::vector<double> errors;
+  for (std::size_t i = 1; i <= steps; ++i) {
+    run.go_on(from + (until - from) * static_cast<double>(i) / static_cast<double>(steps));
+    errors.push_back(std::abs(run.error()));
+  }
+  const auto place = static_cast<std::ptrdiff_t>((1.0 - share) * static_cast<double>(steps));
+  std::nth_element(errors.begin(), errors.begin() + place, errors.end());
+  return errors[static_cast<std::size_t>(place)];
+}
+
 bool agree(const Ending& one, const Ending& other, const PlainDrive& drive, double share) {
   const auto kind_of = [](const Ending& ending) {
     return ending.kind == EndKind::fades ? EndKind::rest : ending.kind;

@@ -65,6 +65,12 @@ struct Extremes {
                                         double from, double until,
                                         const EndingOptions& options = {});
 
+/// rad: what |reference − load| exceeds for a share of the time between two times, s, by 50,000
+/// equal steps of time.
+[[nodiscard]] double error_exceeded_for(double share, const PlainDrive& drive,
+                                        const ShaftReadings& start, double from, double until,
+                                        const EndingOptions& options = {});
+
 /// Whether two endings are the same: kinds alike (rest and fading are one), amplitudes to `share`
 /// or a step of the encoder.
 [[nodiscard]] bool agree(const Ending& one, const Ending& other, const PlainDrive& drive,

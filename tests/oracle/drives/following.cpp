@@ -329,12 +329,15 @@ bool is_near_border(const Drive& drive, const Answer& answer, const StartOutcome
   return false;
 }
 
-void follow_pieces(const Drive& drive, const Answer& answer, FollowedDrive& result) {
+}  // namespace
+
+FollowedDrive follow_pieces(const Drive& drive, const Answer& answer) {
+  FollowedDrive result;
   const bool is_rigid = std::holds_alternative<RigidContact>(drive.contact);
-  if (!answer.rest || !is_rigid || !holds_at_once(drive)) return;
+  if (!answer.rest || !is_rigid || !holds_at_once(drive)) return result;
   const Drive searched = as_searched(drive);
   const std::optional<double> reference = constant_reference(searched);
-  if (!reference) return;
+  if (!reference) return result;
   for (const RestPiece& piece : answer.rest->pieces) {
     const double width = piece.load.high - piece.load.low;
     if (!(width > 0.0)) continue;
@@ -354,9 +357,8 @@ void follow_pieces(const Drive& drive, const Answer& answer, FollowedDrive& resu
       }
     }
   }
+  return result;
 }
-
-}  // namespace
 
 double permitted_share(const Answer& answer, const StartOutcome& start, double share,
                        double irregular_share) {
@@ -408,7 +410,10 @@ FollowedDrive follow_all(const Drive& drive, const Answer& answer, const FollowO
         text(", motor %.9g at %.6g: ", start.motor_position, start.motor_speed) +
         followed.contradiction);
   }
-  follow_pieces(drive, answer, result);
+  FollowedDrive rest = follow_pieces(drive, answer);
+  result.pieces = rest.pieces;
+  std::move(rest.contradictions.begin(), rest.contradictions.end(),
+            std::back_inserter(result.contradictions));
   return result;
 }
 

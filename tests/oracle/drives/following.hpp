@@ -43,6 +43,10 @@ struct FollowedStart {
 [[nodiscard]] double permitted_share(const Answer& answer, const StartOutcome& start, double share,
                                      double irregular_share);
 
+struct FollowedDrive;
+/// The ends of the computed pieces of rest alone, as follow_all() does.
+[[nodiscard]] FollowedDrive follow_pieces(const Drive& drive, const Answer& answer);
+
 /// All that is followed of an answer.
 struct FollowedDrive {
   std::size_t starts = 0;     ///< followed as long as wanted
