@@ -136,7 +136,14 @@ void add_energy(TextRows& rows, const EnergyBalance& energy, const AnswerUnits& 
   };
   share("  in the motor's friction", energy.motor_friction);
   share("  in the load's friction", energy.load_friction);
-  share("  in impacts", energy.impacts);
+  const auto share_if_any = [&](const char* name, double part) {
+    if (part != 0.0) share(name, part);
+  };
+  share_if_any("  in the motor's dry friction", energy.motor_dry_friction);
+  share_if_any("  in the load's dry friction", energy.load_dry_friction);
+  share_if_any("  in impacts", energy.impacts);
+  share_if_any("  in the faces' damping", energy.contact_damping);
+  share_if_any("energy fed by the load torque", energy.load_torque);
 }
 
 /// On a multiplier, in the order of Stability.
