@@ -42,7 +42,7 @@ void expect_same_cycle(const json& printed, const LimitCycle& cycle) {
   EXPECT_EQ(printed["events_per_period"].get<std::size_t>(), cycle.impacts_per_period);
   EXPECT_EQ(printed["settles"], cycle.settles);
   EXPECT_EQ(printed["energy"]["impacts"].get<double>(), cycle.energy.impacts);
-  EXPECT_EQ(printed["energy"]["total"].get<double>(), cycle.energy.total());
+  EXPECT_EQ(printed["energy"]["lost"].get<double>(), cycle.energy.total());
 }
 
 json answer_of(std::vector<std::string> arguments) {
