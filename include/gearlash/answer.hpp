@@ -57,11 +57,14 @@ enum class Stability : std::uint8_t {
 /// Which engine answered.
 enum class Engine : std::uint8_t { closed_form, general };
 
-/// The balance of a period, J: what feeds the motion, and what is lost. What the motor feeds is its
-/// torque's work on its shaft, braking counted negative.
+/// The balance of a period, J: what feeds the motion, and what is lost. Both are equal. The springs
+/// of compliant faces and the weight of the load, linearised, give back what they take. Back-EMF
+/// and the feedback of a tachometer are friction of the motor. So is, in closed form, all that the
+/// controller feeds back of the motor's speed; elsewhere that is part of the motor's torque. In a
+/// winding that lags back-EMF and tachometer act through the torque: the motor feeds less by them.
 struct EnergyBalance {
-  double motor = 0.0;               ///< J, fed by the motor; its back-EMF is friction
-  double load_torque = 0.0;         ///< J, fed by a torque on the load
+  double motor = 0.0;  ///< J, fed by the motor: its torque's work on its shaft, braking negative
+  double load_torque = 0.0;         ///< J, fed by the load torque, braking negative
   double motor_friction = 0.0;      ///< J, lost in the motor's viscous friction
   double load_friction = 0.0;       ///< J, lost in the load's viscous friction
   double motor_dry_friction = 0.0;  ///< J, lost in the motor's dry friction
@@ -318,9 +321,11 @@ struct LinearLoop {
   /// The factor, next to 1 as a ratio, by which the loop's gain may grow or must fall until the
   /// loop is at the border of stability. Below 1 it is one by which the gain may fall.
   std::optional<double> gain_margin{};
-  std::optional<double> phase_crossover{};  ///< Hz: the frequency of this margin
-  /// rad: the largest |reference − load| in the end of a reference that moves, a ramp or a sine.
-  /// Empty of one that stands still, and where it grows without bound.
+  /// Hz: the frequency of this margin, perhaps 0 or half the sampling frequency.
+  std::optional<double> phase_crossover{};
+  /// rad: the largest |reference − load| in the end of a reference that moves, a ramp or a sine,
+  /// without droop under constant torques; at the ticks of a sampled controller. Empty of one that
+  /// stands still, and where it grows without bound.
   std::optional<double> lag{};
 };
 

@@ -25,7 +25,9 @@ SIDES = {0: "both", 1: "forward", -1: "backward"}
 
 
 def cycle(source):
-    return {**source, "mirror_image": source["has_mirror_image"]}
+    energy = source["energy"]
+    return {**source, "mirror_image": source["has_mirror_image"],
+            "energy": energy and {**energy, "total": energy["lost"]}}
 
 
 def irregular(source):

@@ -129,6 +129,11 @@ Value error_if_disturbed(const Answer& answer) {
   return largest;
 }
 
+Value energy_fed(const Answer& answer) {
+  const EnergyBalance* energy = content_of(follow<&Cycle::energy>(answer.largest_stable()));
+  return energy != nullptr ? Value(energy->fed()) : std::nullopt;
+}
+
 // ---- the list -----------------------------------------------------------------------------------
 
 struct Unit {
@@ -184,14 +189,25 @@ constexpr std::array entries = {
     entry(Quantity::separated_time, "separated_time", second, motion,
           "time per period with the faces apart", cycle_value<&Cycle::separated_time>),
     entry(Quantity::motor_friction_loss, "motor_friction_loss", joule, motion,
-          "energy lost in the motor's friction over a period",
+          "energy lost in the motor's viscous friction over a period",
           cycle_value<&Cycle::energy, &EnergyBalance::motor_friction>),
     entry(Quantity::load_friction_loss, "load_friction_loss", joule, motion,
-          "energy lost in the load's friction over a period",
+          "energy lost in the load's viscous friction over a period",
           cycle_value<&Cycle::energy, &EnergyBalance::load_friction>),
     entry(Quantity::impact_loss, "impact_loss", joule, motion,
           "energy lost at impacts over a period",
           cycle_value<&Cycle::energy, &EnergyBalance::impacts>),
+    entry(Quantity::motor_dry_friction_loss, "motor_dry_friction_loss", joule, motion,
+          "energy lost in the motor's dry friction over a period",
+          cycle_value<&Cycle::energy, &EnergyBalance::motor_dry_friction>),
+    entry(Quantity::load_dry_friction_loss, "load_dry_friction_loss", joule, motion,
+          "energy lost in the load's dry friction over a period",
+          cycle_value<&Cycle::energy, &EnergyBalance::load_dry_friction>),
+    entry(Quantity::contact_loss, "contact_loss", joule, motion,
+          "energy lost in compliant faces over a period",
+          cycle_value<&Cycle::energy, &EnergyBalance::contact_damping>),
+    entry(Quantity::energy_fed, "energy_fed", joule, motion,
+          "energy fed by the motor and the load torque over a period", energy_fed),
     entry(Quantity::residual, "residual", one, motion,
           "relative mismatch of the state after one cycle", cycle_value<&Cycle::residual>),
     entry(Quantity::static_error, "static_error", radian, answer,

@@ -44,18 +44,6 @@ std::string residual_text(double residual) {
   return "< " + significant(bound, 2);
 }
 
-void add_energy(TextRows& rows, const EnergyBalance& energy, const AnswerUnits& units) {
-  const double total = energy.lost();
-  const auto text = [&](double part) { return units.in(part, " K rad²", " J"); };
-  rows.push_back({"energy lost per period", text(total)});
-  const auto share = [&](const char* name, double part) {
-    rows.push_back({name, text(part), percent(part, total)});
-  };
-  share("  in the motor's friction", energy.motor_friction);
-  share("  in the load's friction", energy.load_friction);
-  share("  in impacts", energy.impacts);
-}
-
 /// On a multiplier, in the order of Stability.
 constexpr const char* multiplier_remarks[] = {
     "disturbances decay", "disturbances neither grow nor decay", "disturbances grow"};
@@ -97,7 +85,6 @@ std::string cycle_text(const AnswerReport& report, const Cycle& cycle) {
   rows.push_back({"multiplier", units.number(cycle.multiplier),
                   multiplier_remarks[static_cast<std::size_t>(cycle.stability)]});
   add_contact(rows, cycle, answer, units);
-  if (cycle.energy) add_energy(rows, *cycle.energy, units);
   if (answer.engine == Engine::general) {
     rows.push_back({"events per period", std::to_string(cycle.events_per_period)});
     rows.push_back({"reached from", starts_text(cycle.starts)});

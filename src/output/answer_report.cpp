@@ -242,7 +242,10 @@ std::string step_text(const AnswerReport& report) {
        step.settling_time ? "settles within " + band + " in " + units.time(*step.settling_time)
                           : "does not settle within " + band,
        step.settling_time ? "" : "ends " + units.angle(std::abs(step.final_error)) + " off"});
-  return "\nStep of " + units.angle(step.step) + "\n" + table_text({{text}});
+  const bool is_within_gap = std::abs(step.step) < backlash_of(report);
+  return "\nStep of " + units.angle(step.step) +
+         (is_within_gap ? ", less than the gap: --step gives another" : "") + "\n" +
+         table_text({{text}});
 }
 
 // ---- rest ---------------------------------------------------------------------------------------

@@ -75,6 +75,7 @@ Cycle cycle_of(const drive::FoundCycle& found, const drive::DriveSystem& system)
   cycle.separated_time = times.apart;
   cycle.events_per_period = found.orbit.events.size();
   cycle.has_mirror_image = found.has_mirror_image;
+  cycle.energy = found.energy;
   cycle.starts = found.starts;
   return cycle;
 }

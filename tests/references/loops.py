@@ -80,9 +80,33 @@ def law(kind, numbers):
     return scaled(a, [1, 1 / b]), [mpf(0)], [mpf(1), 1 / c]  # lead-lag: gain, zero, pole
 
 
+def gain_margin(control, plant):
+    """1/|L| next to 1 as a ratio where L = control/plant is real and negative, and the frequency."""
+
+    def part(polynomial, first):
+        """Real or imaginary part at s = jω, by powers of ω²; the latter divided by ω."""
+        return [x if k % 2 == 0 else -x for k, x in enumerate(polynomial[first::2])] or [mpf(0)]
+
+    real = total(
+        product(part(control, 1), part(plant, 0)),
+        scaled(-1, product(part(control, 0), part(plant, 1))),
+    )
+    while real[-1] == 0:
+        real.pop()
+    squares = mp.polyroots(real[::-1], maxsteps=200, extraprec=400) if len(real) > 1 else []
+    frequencies = [mp.sqrt(mp.re(x)) for x in squares if mp.im(x) == 0 and mp.re(x) > 0]
+    found = []
+    for w in frequencies + ([mpf(0)] if plant[0] != 0 else []):
+        value = mp.re(mp.polyval(control[::-1], 1j * w) / mp.polyval(plant[::-1], 1j * w))
+        if value < 0:
+            found.append((abs(mp.log(-value)), -1 / value, w))
+    return list(min(found)[1:]) if found else [None, None]
+
+
 def ceilings(kind, motor_inertia, motor_viscous, load_inertia, load_viscous, of_load, speed_of_load,
              winding, back_emf, stiffness, *numbers):
-    """Of the load and of the motor from a gap of unit half width, and whether the loop decays."""
+    """Of the load and of the motor from a gap of unit half width, and whether the loop decays; and
+    its gain margin."""
     with mp.workdps(60):
         position, speed, denominator = law(kind, numbers)
         common = product([1, mpf(winding)] if winding else [mpf(1)], denominator)
@@ -101,11 +125,13 @@ def ceilings(kind, motor_inertia, motor_viscous, load_inertia, load_viscous, of_
         poles = mp.polyroots(closed[::-1], maxsteps=200, extraprec=200)
         fastest, slowest = max(abs(p) for p in poles), min(-mp.re(p) for p in poles)
         if slowest <= 0:
-            return [0, None, None]
+            return [0, None, None, None, None]
         if fastest > 3000 * slowest:
             return None
         load_norm = norm(scaled(-1, opened), closed)
-        return [1, load_norm, norm(total(closed, scaled(-1, opened)), closed)]
+        control = total(position, of_speed)
+        return [1, load_norm, norm(total(closed, scaled(-1, opened)), closed),
+                *gain_margin(control, total(closed, scaled(-1, control)))]
 
 
 def drawn_loop(kind):
@@ -231,11 +257,12 @@ TABLES = [
     Table(
         "question/ceilings",
         "How far load and motor go from each unit of half a gap, |G(oo)| + integral of |g|, of loops\n"
-        "that decay (1) or do not (0). The numbers of the law: proportional, derivative, integral,\n"
-        "filter; position, speed, integral of speed; gain, zero, pole of a lead-lag element.",
+        "that decay (1) or do not (0); the gain margin of the former and its frequency, rad/s. The\n"
+        "numbers of the law: proportional, derivative, integral, filter; position, speed, integral of\n"
+        "speed; gain, zero, pole of a lead-lag element.",
         "motor_inertia motor_viscous load_inertia load_viscous position_of_load speed_of_load"
         " winding back_emf stiffness a b c d",
-        "decays load motor",
+        "decays load motor margin frequency",
         ceilings,
         [Family(kind, 20, drawn_loop(kind)) for kind in ("pid", "cascade", "lead-lag")],
         seed=19601123, sample=3,

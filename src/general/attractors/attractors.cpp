@@ -8,6 +8,7 @@
 
 #include "base/lists.hpp"
 #include "general/attractors/cycle_closing.hpp"
+#include "general/attractors/cycle_energy.hpp"
 #include "general/attractors/found_cycle.hpp"
 #include "general/attractors/irregular_motion.hpp"
 #include "general/attractors/search_setting.hpp"
@@ -85,6 +86,7 @@ class Search {
           });
     }
     if (result_.is_complete) progress_.go_on(1.0);
+    measure_torques();
     finish();
     return std::move(result_);
   }
@@ -245,11 +247,18 @@ class Search {
     for (std::size_t i = 0; i < verdicts_.size(); ++i) record(starts_[i], verdicts_[i]);
   }
 
+  void measure_torques() {
+    for (FoundCycle& cycle : result_.cycles) {
+      const Trajectory motion = motion_on(setting_.system, cycle.orbit, 1.0);
+      cycle.mesh_torque = largest_mesh_torque(setting_, motion);
+      cycle.energy = energy_of(setting_, motion);
+    }
+  }
+
   /// Sorts motions by falling amplitude; stable cycles come before others, and motions of the
   /// motor alone last. Removes the scale from the orbits.
   void finish() {
     for (FoundCycle& cycle : result_.cycles) {
-      cycle.mesh_torque = largest_mesh_torque(setting_, cycle.orbit);
       cycle.orbit = unscaled(cycle.orbit, setting_.frame.scale);
     }
     const std::vector<std::size_t> place = sort(result_.cycles, MotionEnd::cycle, [](auto& one) {

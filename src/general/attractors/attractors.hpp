@@ -44,6 +44,7 @@ struct FoundCycle {
   double frequency = 0.0;     ///< rad/s, 2π/period
   double impact_speed = 0.0;  ///< rad/s, |ω_M − ω_L| at the hardest impact; 0 without impacts
   double mesh_torque = 0.0;   ///< N m, the largest between the faces while they are together
+  EnergyBalance energy{};     ///< J, over a period
   double multiplier = 0.0;    ///< the largest modulus of the orbit's
   double mismatch = 0.0;      ///< rad, by which a shaft misses its place after a period
   /// After half a period the drive is its mirror image about the reference.

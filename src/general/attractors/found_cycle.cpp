@@ -156,13 +156,13 @@ bool is_one_with(FoundCycle& known, const FoundCycle& cycle, const CycleToleranc
   return is_image;
 }
 
-double largest_mesh_torque(const SearchSetting& setting, const PeriodicOrbit& orbit) {
+double largest_mesh_torque(const SearchSetting& setting, const Trajectory& motion) {
   const auto torque_in = [&](std::size_t mode) {
     std::optional<hybrid::AffineForm> torque = setting.built.mesh_torque(mode);
     if (torque) torque = setting.frame.inside(std::move(*torque));
     return torque;
   };
-  return largest_size(motion_on(setting.system, orbit, 1.0), setting.system.system(), torque_in);
+  return largest_size(motion, setting.system.system(), torque_in);
 }
 
 std::size_t place_of(const FoundCycle& cycle, const CycleTolerances& tolerances,

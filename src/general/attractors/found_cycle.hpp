@@ -23,7 +23,7 @@ FoundCycle measured(const SearchSetting& setting, const hybrid::PeriodicOrbit& o
 
 /// N m at the load's shaft, between the faces while they are together. Where rigid faces stand with
 /// dry friction it is not determined and left out.
-double largest_mesh_torque(const SearchSetting& setting, const hybrid::PeriodicOrbit& orbit);
+double largest_mesh_torque(const SearchSetting& setting, const hybrid::Trajectory& motion);
 
 /// The larger of both amplitudes: the load may stand while the motor hunts within the gap.
 double extent_of(const FoundCycle& cycle);

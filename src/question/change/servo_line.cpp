@@ -145,9 +145,9 @@ Answer with_backlash(Answer answer, double backlash) {
     cycle.impact_speed *= factor;
     if (cycle.mesh_torque) *cycle.mesh_torque *= factor;
     if (cycle.energy) {
-      for (double* loss :
-           {&cycle.energy->motor_friction, &cycle.energy->load_friction, &cycle.energy->impacts}) {
-        *loss *= factor * factor;
+      for (double* part : {&cycle.energy->motor, &cycle.energy->motor_friction,
+                           &cycle.energy->load_friction, &cycle.energy->impacts}) {
+        *part *= factor * factor;
       }
     }
   }

@@ -6,6 +6,7 @@
 #include <complex>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <vector>
 
@@ -54,7 +55,31 @@ class LoopTransfer {
     effort_by_reference_ = by_reference(open.effort);
   }
 
-  LoopResponse at(double frequency) const {
+  double period() const { return period_; }
+
+  const LoopResponse& at(double frequency) const {
+    const auto [place, is_new] = kept_.try_emplace(frequency);
+    if (is_new) place->second = response(frequency);
+    return place->second;
+  }
+
+  /// s, |r − θ_L| of a ramp of 1 rad/s in the end; empty if it grows. The states of the loop, flow
+  /// F and inputs by the reference R, follow as a + b t with F b = −R and F a = b.
+  std::optional<double> lag_of_ramp() const {
+    Eigen::MatrixXd flow = (flow_ + inputs_.col(0) * effort_).real();
+    Eigen::VectorXd inputs = (inputs_.col(1) + effort_by_reference_ * inputs_.col(0)).real();
+    if (period_ > 0.0) {
+      flow = (flow - Eigen::MatrixXd::Identity(flow.rows(), flow.cols())) / period_;
+      inputs /= period_;
+    }
+    const Eigen::VectorXd rates = solved(flow, Eigen::VectorXd(-inputs));
+    constexpr double rounding = 1e-9;
+    if (!(std::abs((load_.real() * rates).value() - 1.0) <= rounding)) return std::nullopt;
+    return std::abs((load_.real() * solved(flow, rates)).value());
+  }
+
+ private:
+  LoopResponse response(double frequency) const {
     const Complex advance = period_ > 0.0 ? std::polar(1.0, frequency * period_)  //
                                           : Complex{0.0, frequency};
     const Eigen::MatrixXcd states = solved(
@@ -65,13 +90,13 @@ class LoopTransfer {
     return {open, requested * (load_ * states.col(0)).value() / (1.0 + open)};
   }
 
- private:
   double period_ = 0.0;  ///< s; 0 of a continuous controller
   Eigen::MatrixXcd flow_;
   Eigen::MatrixXcd inputs_;
   Eigen::RowVectorXcd load_;
   Eigen::RowVectorXcd effort_;
   double effort_by_reference_ = 0.0;
+  mutable std::map<double, LoopResponse> kept_;  ///< for the next figure
 };
 
 // ---- frequencies --------------------------------------------------------------------------------
@@ -158,6 +183,79 @@ std::vector<double> crossings(const Function& function, const std::vector<double
   return found;
 }
 
+// ---- figures ------------------------------------------------------------------------------------
+
+constexpr double turn = 2.0 * std::numbers::pi;  // from rad/s to Hz
+
+std::optional<double> bandwidth_of(const LoopTransfer& loop,
+                                   const std::vector<double>& frequencies) {
+  const double at_rest = std::abs(loop.at(frequencies.front()).closed);
+  const std::vector<double> falls = crossings(
+      [&](double frequency) {
+        return std::log(std::abs(loop.at(frequency).closed) / at_rest) + 0.5 * std::numbers::ln2;
+      },
+      frequencies);
+  return falls.empty() ? std::nullopt : std::optional(falls.front() / turn);
+}
+
+void add_phase_margin(const LoopTransfer& loop, const std::vector<double>& frequencies,
+                      LinearLoop& figures) {
+  for (const double frequency :
+       crossings([&](double at) { return std::log(std::abs(loop.at(at).open)); }, frequencies)) {
+    const double margin = std::abs(std::arg(-loop.at(frequency).open));
+    if (figures.phase_margin && *figures.phase_margin <= margin) continue;
+    figures.phase_margin = margin;
+    figures.crossover = frequency / turn;
+  }
+}
+
+/// Where L is real, and where it passes through infinity or 0; and the ends at which it is real, 0
+/// and half the sampling frequency, unless it has a pole there.
+std::vector<double> real_frequencies(const LoopTransfer& loop,
+                                     const std::vector<double>& frequencies) {
+  std::vector<double> found = crossings(
+      [&](double at) {
+        const Complex open = loop.at(at).open;
+        return open.imag() / std::abs(open);
+      },
+      frequencies);
+  const auto add_end = [&](double end, double beside) {
+    constexpr double same = 1e-3;
+    const Complex near = loop.at(beside).open;
+    if (std::abs(loop.at(end).open - near) <= same * std::abs(near)) found.push_back(end);
+  };
+  add_end(0.0, frequencies.front());
+  if (loop.period() > 0.0) add_end(std::numbers::pi / loop.period(), frequencies.back());
+  return found;
+}
+
+void add_gain_margin(const LoopTransfer& loop, const std::vector<double>& frequencies,
+                     LinearLoop& figures) {
+  constexpr double rounding = 1e-6;  // of L, where it is real
+  double nearest = std::log(1e6);    // beyond this factor roundings decide where L is real
+  for (const double frequency : real_frequencies(loop, frequencies)) {
+    const Complex open = loop.at(frequency).open;
+    const double distance = std::abs(std::log(-open.real()));
+    const bool is_negative = std::abs(open.imag()) <= rounding * -open.real();
+    if (!is_negative || !(distance < nearest)) continue;
+    nearest = distance;
+    figures.gain_margin = -1.0 / open.real();
+    figures.phase_crossover = frequency / turn;
+  }
+}
+
+/// LinearLoop::lag. What a controller adds because of its reference's speed belongs into the inputs
+/// by the reference (LoopTransfer).
+std::optional<double> lag_of(const LoopTransfer& loop, const Signal& reference) {
+  if (const auto* ramp = std::get_if<Ramp>(&reference)) {
+    const std::optional<double> lag = loop.lag_of_ramp();
+    return lag ? std::optional(std::abs(ramp->rate) * *lag) : std::nullopt;
+  }
+  const auto* sine = std::get_if<Sine>(&reference);
+  if (sine == nullptr) return std::nullopt;
+  return std::abs(sine->amplitude) * std::abs(1.0 - loop.at(sine->frequency).closed);
+}
+
 }  // namespace
 
 std::optional<LinearLoop> loop_figures(const ReducedDrive& drive) {
@@ -168,21 +266,10 @@ std::optional<LinearLoop> loop_figures(const ReducedDrive& drive) {
   const std::vector<double> frequencies = sampled_frequencies(drive);
   if (!figures.is_stable || frequencies.empty()) return figures;
   const LoopTransfer loop(linear_drive(drive));
-  constexpr double turn = 2.0 * std::numbers::pi;  // from rad/s to Hz
-  const double at_rest = std::abs(loop.at(frequencies.front()).closed);
-  const std::vector<double> falls = crossings(
-      [&](double frequency) {
-        return std::log(std::abs(loop.at(frequency).closed) / at_rest) + 0.5 * std::numbers::ln2;
-      },
-      frequencies);
-  if (!falls.empty()) figures.bandwidth = falls.front() / turn;
-  for (const double frequency :
-       crossings([&](double at) { return std::log(std::abs(loop.at(at).open)); }, frequencies)) {
-    const double margin = std::abs(std::arg(-loop.at(frequency).open));
-    if (figures.phase_margin && *figures.phase_margin <= margin) continue;
-    figures.phase_margin = margin;
-    figures.crossover = frequency / turn;
-  }
+  figures.bandwidth = bandwidth_of(loop, frequencies);
+  add_phase_margin(loop, frequencies, figures);
+  add_gain_margin(loop, frequencies, figures);
+  figures.lag = lag_of(loop, settled(drive.reference));
   return figures;
 }
 

@@ -1,4 +1,4 @@
-// Stability, bandwidth and phase margin of a drive's linear loop.
+// Stability, bandwidth, margins and lag of a drive's linear loop.
 #pragma once
 
 #include <optional>
@@ -10,6 +10,13 @@ namespace gearlash::drive {
 
 /// Bandwidth: the first frequency at which |θ_L/r| falls below 1/√2 of its value at frequency 0.
 /// Phase margin: the least |arg(L(jω)) ± π| where |L(jω)| = 1, at the crossover.
+/// Gain margin: 1/|L(jω)| where L(jω) is real and negative, of all such frequencies that whose |L|
+/// is next to 1 as a ratio, within a factor of 1e6. With the gain multiplied by it, and by nothing
+/// between it and 1, the loop is at the border of stability. Frequency 0 counts if L has no pole
+/// there, and so does half the sampling frequency: L is real at both.
+/// Lag: the largest |r − θ_L| in the end of a reference that is a ramp, by the final value, or a
+/// sine, A |1 − θ_L/r|. Droop, by which a constant reference is missed, is no part of it; a ramp
+/// has none where that grows with the reference.
 ///
 /// The loop is broken at the torque that the controller requests. With the plant G from there to
 /// the load's position θ_L, the sensed position y and the sensed speed v, and the controller
@@ -19,11 +26,12 @@ namespace gearlash::drive {
 /// The plant has inertia, viscous friction, the linearised weight, and the winding. With rigid
 /// faces both shafts turn as one. With compliant faces they are joined by stiffness and damping.
 /// Left out: the gap, dry friction, limits of torque and current, steps of encoders, a dead band
-/// and its compensation, feedforward, load torque.
+/// and its compensation, feedforward, load torque. Margins are those of a stable loop: of another
+/// one they do not say how far it is from the border.
 ///
 /// A sampled loop is exact: z = e^{jωT}, the plant from tick to tick under the held and delayed
-/// torque, the speed from a tachometer or from differences, and θ_L at the ticks. Frequencies end
-/// at half the sampling frequency.
+/// torque, the speed from a tachometer or from differences, and θ_L at the ticks; so is the lag.
+/// Frequencies end at half the sampling frequency.
 ///
 /// Crossings are searched among 64 frequencies a decade, more at each eigenvalue of the loop, and
 /// at the extremes between them; then they are refined to rounding. A pair of crossings within one

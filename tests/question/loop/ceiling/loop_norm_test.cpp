@@ -1,13 +1,17 @@
-// Ceilings beside ∫|g| in many digits, of transfer functions that are written down by hand.
+// Ceilings beside ∫|g|, and gain margins, in many digits, of transfer functions that are written
+// down by hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <string>
 
 #include "base/references.hpp"
 #include "controllers.hpp"
 #include "model/reduced_drive.hpp"
 #include "question/loop/ceiling/ceiling.hpp"
+#include "question/loop/linear_loop.hpp"
 
 namespace gearlash::loop_norm_test {
 namespace {
@@ -64,6 +68,25 @@ TEST(OracleCeiling, IsTheNormInManyDigitsOfRandomLoops) {
   }
   RecordProperty("largest excess over the norm", std::to_string(loosest - 1.0));
   EXPECT_GT(proved, 35);
+}
+
+TEST(OracleGainMargin, IsThatInManyDigitsOfRandomLoops) {
+  int with = 0;
+  int without = 0;
+  for (const Reference& loop : References("question", "ceilings")) {
+    SCOPED_TRACE(testing::Message() << loop.kind() << " " << loop["motor_inertia"]);
+    const std::optional<LinearLoop> figures = drive::loop_figures(drive_of(loop));
+    ASSERT_TRUE(figures);
+    const double margin = loop.input("margin");
+    ASSERT_EQ(figures->gain_margin.has_value(), !std::isnan(margin));
+    ++(figures->gain_margin ? with : without);
+    if (!figures->gain_margin) continue;
+    const double frequency = loop.input("frequency") / (2.0 * std::numbers::pi);
+    EXPECT_NEAR(*figures->gain_margin, margin, 1e-9 * margin);
+    EXPECT_NEAR(*figures->phase_crossover, frequency, 1e-9 * frequency);
+  }
+  EXPECT_GT(with, 15);
+  EXPECT_GT(without, 15);
 }
 
 /// The sample servo of the thesis, and three of its neighbours: to four digits.
