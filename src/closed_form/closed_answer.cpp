@@ -95,6 +95,12 @@ Answer answer_of(const LimitCycleAnalysis& analysis, const ProportionalServo& se
   answer.is_dissipative = analysis.is_dissipative;
   answer.rests_engaged = analysis.rests_engaged;
   answer.neutral_swings = analysis.neutral_swings;
+  const bool may_rest = analysis.verdict == Verdict::cannot_hunt ||
+                        analysis.verdict == Verdict::hunts_if_disturbed || analysis.rests_engaged;
+  if (may_rest) {  // at the reference, with the motor anywhere in the gap
+    const double half_gap = 0.5 * servo.servo.backlash;
+    answer.rest = Rest{.motor = {-half_gap, half_gap}, .certainty = Certainty::computed};
+  }
   const Certainty of_cycles = analysis.is_proved() ? analysis.certainty : Certainty::computed;
   for (const LimitCycle& cycle : analysis.cycles) {
     answer.cycles.push_back(cycle_of(cycle, of_cycles, time_unit, servo.stiffness));

@@ -21,7 +21,7 @@ constexpr double degree = std::numbers::pi / 180.0;
 /// normal form, relative to the present ones.
 std::vector<std::string> names_of_costs(const DesignReport& report) {
   if (report.design.present.answer.normal_form) return {"ω_n", "ζ", "K"};
-  return {"static error", "rise", "overshoot", "settles", "bandwidth", "phase margin"};
+  return {"error", "rise", "overshoot", "settles", "bandwidth", "phase margin"};
 }
 
 std::string change_between(const std::optional<double>& before,
@@ -37,7 +37,7 @@ TextRow costs_text(const DesignReport& report, const DriveWithValue& one) {
             significant(after.damping, few_digits),
             change_between(before->stiffness, after.stiffness)};
   }
-  const auto error = one.answer.value(Quantity::static_error);
+  const auto error = one.answer.value(Quantity::error);
   const StepResponse response = one.answer.step.value_or(StepResponse{});
   const LinearLoop loop = one.answer.loop.value_or(LinearLoop{});
   const auto time = [](const std::optional<double>& seconds) {
@@ -315,6 +315,10 @@ std::string certainty(const DesignReport& report) {
 }  // namespace
 
 std::string design_text(const DesignReport& report) {
+  std::vector<const Answer*> answers = {&report.design.present.answer};
+  for (const DesignedParameter& parameter : report.design.parameters) {
+    for (const DriveWithValue& one : parameter.results) answers.push_back(&one.answer);
+  }
   const Answer& present = report.design.present.answer;
   const char* met = report.design.met == Judgement::all    ? "met"
                     : report.design.met == Judgement::none ? "not met"
@@ -324,7 +328,7 @@ std::string design_text(const DesignReport& report) {
   return fmt::format("target: {}\nat present: {}, {}\n\n", report.target_text,
                      result_of(report, present), met) +
          table_of_results(report) + borders_text(report) + reasons(report) + proofs_text(report) +
-         wrapped(certainty(report));
+         wrapped(certainty(report)) + hidden_error_text(report.target, answers, report.angle);
 }
 
 std::vector<ParameterFacts> DesignReport::parameters() const {

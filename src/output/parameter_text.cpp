@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
+
+#include "output/columns.hpp"
+#include "question/change/target.hpp"
 
 namespace gearlash {
 
@@ -93,13 +97,32 @@ std::string result_text(const Answer& answer, const AngleUnit& angle, bool is_no
   constexpr double hardly = 1e-3;  // the load moves while the motor hunts within the gap
   const bool is_of_motor = load && motor && *load < hardly * *motor;
   const std::optional<double> amplitude = is_of_motor ? motor : load;
-  if (!amplitude || *amplitude == 0.0) return text;
+  const std::optional<double> error = answer.value(Quantity::error);
+  const std::string off = error && std::isfinite(*error) && *error > 1.05 * load.value_or(0.0)
+                              ? ", up to " + angle_text(*error, angle, few_digits) + " off"
+                              : "";
+  if (!amplitude || *amplitude == 0.0) return text + off;
   text += (is_of_motor ? ": motor ±" : ": ±") + angle_text(*amplitude, angle, few_digits);
   const auto frequency = answer.value(Quantity::frequency);
   if (frequency && !is_normalized) {
     text += " at " + significant(*frequency, few_digits) + " Hz";
   }
-  return text;
+  return text + off;
+}
+
+std::string hidden_error_text(const Target& target, const std::vector<const Answer*>& answers,
+                              const AngleUnit& angle) {
+  double error = 0.0;
+  for (const Answer* answer : answers) {
+    const double own = answer->value(Quantity::error).value_or(0.0);
+    if (is_met(target, *answer) && hides_error(target, own)) error = std::max(error, own);
+  }
+  if (error == 0.0) return "";
+  return further_paragraph(
+      "The target limits the amplitude of hunting alone: where it is met the load may end " +
+      angle_text(error, angle, usual_digits) +
+      " off. \"error <= …\" limits where it ends, static error and hunting "
+      "together.");
 }
 
 }  // namespace gearlash

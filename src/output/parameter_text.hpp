@@ -97,4 +97,8 @@ DrawnUnit drawn_unit(Quantity quantity, const AngleUnit& angle, bool is_normaliz
 /// hunts within the gap; the growth at rest of what cannot hunt. A normal form has no frequencies.
 std::string result_text(const Answer& answer, const AngleUnit& angle, bool is_normalized = false);
 
+/// A paragraph where one of the answers meets the target and hides_error(); empty otherwise.
+std::string hidden_error_text(const Target& target, const std::vector<const Answer*>& answers,
+                              const AngleUnit& angle);
+
 }  // namespace gearlash

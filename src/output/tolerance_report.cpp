@@ -73,11 +73,12 @@ TextRows headline_rows(const ToleranceReport& report) {
 
 TextRows quantile_rows(const ToleranceReport& report) {
   const ToleranceStudy& study = report.study;
-  TextRows rows = {
-      {"share of samples up to", amplitude_name(report), "amplitude, of those that hunt"}};
+  TextRows rows = {{"share of samples up to", "error in the end", amplitude_name(report),
+                    "amplitude, of those that hunt"}};
   if (has_frequency(report)) rows.front().emplace_back("frequency");
   for (std::size_t i = 0; i < study.amplitude.size(); ++i) {
     TextRow row = {significant(100.0 * study.amplitude[i].share, usual_digits) + " %",
+                   amplitude_text(study.error[i].value, report),
                    amplitude_text(study.amplitude[i].value, report),
                    amplitude_text(study.amplitude_of_hunting[i].value, report)};
     if (has_frequency(report)) row.push_back(frequency_text(study.frequency[i].value));
@@ -238,6 +239,12 @@ std::string counts_text(const ToleranceReport& report) {
     text += fmt::format(
         " Undecided: {}; hunting with an unknown amplitude: {}; draws that are no drive: {}.",
         study.undecided, study.unknown_amplitudes, study.refused);
+  }
+  if (study.hidden_errors > 0) {
+    text += fmt::format(
+        " Of the samples that meet the target {} end farther off than the amplitude that it "
+        "permits: \"error <= …\" limits where the load ends, static error and hunting together.",
+        study.hidden_errors);
   }
   return further_paragraph(text);
 }

@@ -131,7 +131,8 @@ std::string tune_text(const TuneReport& report) {
                      result_text(report.nominal, report.angle)) +
          table_of_values(report) + further_paragraph(outcome_text(report)) +
          further_paragraph(limiting_text(report)) + further_paragraph(advice_text(report)) +
-         further_paragraph(effort_text(report));
+         further_paragraph(effort_text(report)) +
+         hidden_error_text(report.task.target, {&report.nominal}, report.angle);
 }
 
 std::optional<std::string> TuneReport::why_integral_action_hunts() const {

@@ -146,6 +146,15 @@ Judgement judge_resting(const Target& target) {
 
 }  // namespace
 
+bool hides_error(const Target& target, double error) {
+  for (const Quantity quantity :
+       {Quantity::error, Quantity::error_if_disturbed, Quantity::static_error}) {
+    if (target.permitted(quantity).high < infinity) return false;
+  }
+  constexpr double rounding = 1.0 + 1e-9;
+  return error > rounding * target.permitted(Quantity::amplitude).high;
+}
+
 Wanted wanted_for(const Target& target) {
   Wanted wanted{.proofs = false, .borders = asks_for_motion(target)};
   for (const QuantityLimit& limit : target.limits) ask_for(limit.quantity, wanted);

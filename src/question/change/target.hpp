@@ -21,6 +21,10 @@ bool is_missed(const Target& target, const Answer& answer);
 /// did not finish, or the motion does not repeat.
 bool is_known(const Target& target, const Answer& answer);
 
+/// Whether the target limits the load's amplitude, and nothing of its error, and an error in the end
+/// is larger than it permits: met, and yet farther off than its reader may believe.
+bool hides_error(const Target& target, double error);
+
 /// ln(value/limit) of the limit closest to violation, or most violated. Except for rounding it is
 /// ≤ 0 where all limits are kept. Growth at rest with the limit 1 represents no-hunting where it is
 /// known; else a verdict that is not permitted counts as 1. −∞ where no value is near a limit, ∞

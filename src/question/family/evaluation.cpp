@@ -107,13 +107,17 @@ void read_back(const CycleColumns& columns, std::size_t row, Answer& answer) {
   answer.growth_at_rest = known(columns[Quantity::growth_at_rest][row]);
   answer.cycles.clear();
   answer.irregular.clear();
+  answer.rest.reset();
+  if (is_at_rest(answer.verdict) || answer.verdict == Verdict::hunts_if_disturbed) {
+    answer.rest.emplace();  // at the reference
+  }
   const double amplitude = columns[Quantity::amplitude][row];
   const double period = columns[Quantity::period][row];
   if (!std::isfinite(amplitude) || answer.verdict == Verdict::cannot_hunt) return;
   if (std::isnan(period)) {
-    answer.irregular.push_back({.amplitude = amplitude});
+    answer.irregular.push_back({.amplitude = amplitude, .error = amplitude});
   } else {
-    answer.cycles.push_back({.amplitude = amplitude, .period = period});
+    answer.cycles.push_back({.amplitude = amplitude, .error = amplitude, .period = period});
   }
 }
 

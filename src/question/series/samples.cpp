@@ -110,6 +110,7 @@ SampleResult SampleAnswers::result_of(const Answer* answer) const {
   return {.growth_at_rest = answer->growth_at_rest.value_or(not_a_number),
           .amplitude = amplitude_in(*answer, amplitude_),
           .frequency = answer->value(Quantity::frequency).value_or(not_a_number),
+          .error = answer->value(Quantity::error).value_or(not_a_number),
           .verdict = answer->verdict,
           .meets = is_met(target_, *answer)};
 }

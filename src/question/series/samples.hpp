@@ -39,6 +39,7 @@ struct SampleResult {
   /// without bound or runs away, NaN where unknown.
   double amplitude = not_a_number;
   double frequency = not_a_number;  ///< Hz; NaN where there is no cycle
+  double error = not_a_number;      ///< rad, in the end; infinite and NaN as the amplitude
   Verdict verdict = Verdict::undecided;
   bool meets = false;    ///< the target
   bool refused = false;  ///< no valid drive: undecided, numbers NaN

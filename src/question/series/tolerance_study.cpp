@@ -7,6 +7,7 @@
 #include "base/lists.hpp"
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
+#include "question/change/target.hpp"
 #include "question/series/replicates.hpp"
 #include "question/series/sample_plan.hpp"
 
@@ -17,7 +18,7 @@ using detail::SampleResult;
 using detail::SampleResults;
 using detail::SortedReplicates;
 
-static_assert(sizeof(SampleResult) == 32);  // SamplePlan::most_samples says what they take
+static_assert(sizeof(SampleResult) == 40);  // SamplePlan::most_samples says what they take
 
 constexpr double above_zero = std::numeric_limits<double>::denorm_min();
 
@@ -181,6 +182,13 @@ ToleranceStudy study_of(const SamplePlan& sampling, const StudyQuestions& questi
   const SortedReplicates frequencies = sorted_by([](const SampleResult& result) {
     return std::isnan(result.frequency) ? no_cycle : result.frequency;
   });
+  study.error = quantiles_of(sorted_by([](const SampleResult& result) {
+                               return std::isnan(result.error) ? infinity : result.error;
+                             }),
+                             questions.shares);
+  for (const SampleResult& result : results) {
+    if (result.meets && hides_error(questions.target, result.error)) ++study.hidden_errors;
+  }
   study.frequency = quantiles_of(frequencies.from(0.0), questions.shares);
   return study;
 }
