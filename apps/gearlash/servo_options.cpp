@@ -65,10 +65,10 @@ std::vector<TypedNumber> typed_numbers(const ServoOptions& options) {
   return typed;
 }
 
-/// As --set would give it. A bare backlash is in radians.
+/// As --set would give it. A bare backlash of a normal form is in radians.
 Setting setting_of(const TypedNumber& typed, bool is_normal_form) {
   const std::string path(path_of(typed.number, is_normal_form));
-  const bool is_bare = path.ends_with("backlash") && bare_number(typed.text);
+  const bool is_bare = path == "servo.backlash" && bare_number(typed.text);
   return {path, typed.text + (is_bare ? " rad" : "")};
 }
 
@@ -256,6 +256,22 @@ std::vector<Fault> named_as_typed(std::vector<Fault> faults, const ServoOptions&
   return faults;
 }
 
+/// Numbers that an option and --set give differently.
+std::vector<Fault> contradictions(const std::vector<Setting>& options,
+                                  const std::vector<Setting>& settings) {
+  std::vector<Fault> found;
+  for (const Setting& option : options) {
+    for (const Setting& setting : settings) {
+      if (find_parameter(setting.path) != find_parameter(option.path)) continue;
+      if (setting.text == option.text) continue;
+      found.push_back({option.path, option.text,
+                       "must not stand beside --set " + setting.path + "=" + shown(setting.text) +
+                           ": give one of them"});
+    }
+  }
+  return found;
+}
+
 /// The normal form of a drive with the numbers changed by options. The natural frequency stays.
 WrittenDrive changed_normal_form(const WrittenDrive& written, const ServoOptions& options) {
   const std::optional<Drive> form = normal_form_of(written.drive);
@@ -289,6 +305,7 @@ WrittenDrive read_drive_as_typed(const ServoOptions& options, std::vector<Settin
     for (const TypedNumber& typed : typed_numbers(options)) {
       if (is_form || !is_ratio(typed.number)) numbers.push_back(setting_of(typed, is_form));
     }
+    require_none(contradictions(numbers, settings));
     // The last one holds: --set changes a servo of options, which change the drive of a file.
     const auto place = options.file.empty() ? settings.begin() : settings.end();
     settings.insert(place, numbers.begin(), numbers.end());

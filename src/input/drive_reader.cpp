@@ -3,6 +3,7 @@
 #include <array>
 
 #include "base/lists.hpp"
+#include "input/foreign_words.hpp"
 #include "input/parameter_text.hpp"
 #include "input/robot_form.hpp"
 #include "input/signal_reader.hpp"
@@ -25,8 +26,9 @@ bool is_choice(const Slot& slot) { return std::holds_alternative<Choice>(slot); 
 /// A contact with a stiffness and no kind is compliant.
 void infer_kind_of_contact(const TomlDocument& document, Drive& drive) {
   const auto has = [&](const char* path) { return document.value_at(path) != nullptr; };
-  if (has("contact.kind")) return;
-  if (has("contact.stiffness") || has("contact.damping") || has("contact.law")) {
+  const bool is_compliant =
+      has("contact.stiffness") || has("contact.damping") || has("contact.law");
+  if ((is_compliant && !has("contact.kind")) || has("gearbox.torsional_stiffness")) {
     drive.contact = CompliantContact{};
   }
 }
@@ -93,6 +95,7 @@ class DriveReader {
     }
     refuse_other_sections();
     if (!has_anything()) return std::move(file_);
+    infer_kind_of_contact(document_, drive());
     for (const Section& section : all_sections()) read_section(section);
     drive().is_rounded = has_rounded_numbers();
     check();
@@ -146,8 +149,11 @@ class DriveReader {
       const std::string name(key.str());
       if (name == variation_.section) continue;
       if (!contains(names, name)) {
+        const std::string guess = guess_of_key("", name, names);
         findings_.refuse(key.source().begin, shown(name), document_.written(value),
-                         "is not a section: " + one_of(names, name));
+                         value.is_table()
+                             ? "is not a section: must be one of " + listed(names) + guess
+                             : "must stand in a section, such as [motor]" + guess);
       }
     }
     for (const char* robots : {"joint", "actuator"}) {
@@ -189,7 +195,6 @@ class DriveReader {
     const bool is_required = is_plant || (is_servo && !leaves_nothing_to_give());
     if (has(name) && !section.is_present(drive())) section.add(drive());
     if (!is_required && !is_servo && !has(name)) return;
-    if (name == "contact") infer_kind_of_contact(document_, drive());
     const char* contents =
         name == "controller" ? "with a kind and its gains, or [loop]" : section.contents.data();
     read_keys(name, is_required, contents);
@@ -207,7 +212,6 @@ class DriveReader {
                         "must be the moment of inertia that the joint moves, such as kg m2: in a "
                         "section [load]");
     }
-    if (name == "contact") infer_kind_of_contact(document_, drive());
     if (has(name)) read_keys(name, false, section.contents.data());
     if (name == "controller") read_keys("actuator", true, "with kp, kv and timestep");
   }
@@ -225,11 +229,13 @@ class DriveReader {
       if (keys.empty()) continue;
       const Slot slot = parameter.slot(drive());
       const bool is_kind = parameter.is_required && !parameter.choices.empty();
-      if (std::holds_alternative<std::monostate>(slot)) {
-        if (!kind_is_known) check_value(section, parameter, keys.front());
+      const bool has_it = !std::holds_alternative<std::monostate>(slot);
+      if (!has_it && kind_is_known) continue;
+      const Key key = key_given(section, keys);
+      if (!has_it) {
+        check_value(section, name, parameter, key);
         continue;
       }
-      const Key key = key_given(section, keys);
       if (is_kind) {
         kind_is_known = read_choice(section, name, parameter, key, std::get<Choice>(slot));
       } else {
@@ -237,9 +243,51 @@ class DriveReader {
       }
     }
     if (name == "motor") motor_is_known_ = kind_is_known;
-    if (is_kind_set(name)) know_keys_of_all_kinds(section, name);
+    if (is_kind_set(name) || !kind_is_known) know_keys_of_all_kinds(section, name);
     refuse_rivals(section, name);
-    if (kind_is_known) section.refuse_other_keys();
+    section.refuse_other_keys([&](const std::string& key, const std::vector<std::string>& known) {
+      const std::string kinds = kinds_with(name, key);
+      const std::string guess = guess_of_key(name, key, known);
+      if (!kinds.empty()) {
+        return "is not a key of [" + name + "] with " + kind_of(name) + ", but with " + kinds;
+      }
+      if (!kind_is_known) return "is not a key of any kind of [" + name + "]" + guess;
+      return "is not a key of [" + name + "]: must be one of " + listed(known) + guess;
+    });
+  }
+
+  /// "kind = "PD"", of the section.
+  std::string kind_of(const std::string& section) {
+    const Parameter& kind = *find_parameter(section + ".kind");
+    const std::size_t index = std::get<Choice>(kind.slot(drive())).chosen(drive());
+    return "kind = \"" + std::string(kind.choices[index]) + "\"";
+  }
+
+  /// Whether the drive has a parameter that the section may give by this key.
+  static bool takes_key(Drive& drive, const std::string& section, const std::string& key) {
+    return any_of(all_parameters_of_drives(), [&](const Parameter& parameter) {
+      return has_name(parameter, section + "." + key) && exists(parameter, drive);
+    });
+  }
+
+  /// Calls `use` with the drive as it would be with each kind that the section may have.
+  template <class Use>
+  void for_each_kind(const std::string& section, const Use& use) {
+    const Parameter* kind = find_parameter(section + ".kind");
+    for (std::size_t i = 0; kind != nullptr && i < kind->choices.size(); ++i) {
+      Drive other = drive();
+      std::get<Choice>(kind->slot(other)).choose(other, i);
+      use(other, kind->choices[i]);
+    }
+  }
+
+  /// ""PD" or "PID"", the kinds of the section that have the key; empty if none has.
+  std::string kinds_with(const std::string& section, const std::string& key) {
+    std::vector<std::string> kinds;
+    for_each_kind(section, [&](Drive& other, std::string_view kind) {
+      if (takes_key(other, section, key)) kinds.push_back("\"" + std::string(kind) + "\"");
+    });
+    return alternatives(kinds);
   }
 
   /// Whether --set gives the kind. The file's keys may then belong to another kind.
@@ -286,13 +334,16 @@ class DriveReader {
                      "armature- or field-controlled one");
     }
     if (name == "sensor") {
-      for (const char* prefix : {"", "speed_"}) {
-        const std::string counts = std::string(prefix) + "counts_per_turn";
-        const std::string resolution = std::string(prefix) + "resolution";
-        if (section.has(counts) && section.has(resolution)) {
-          section.refuse(resolution, "must not stand beside " + counts + ": one gives the other");
+      for (const std::string prefix : {"", "speed_"}) {
+        for (const char* counts : {"counts_per_turn", "bits", "lines"}) {
+          if (!section.has(prefix + counts)) continue;
+          section.refuse(prefix + "resolution",
+                         "must not stand beside " + prefix + counts + ": one gives the other");
         }
       }
+    }
+    if (name == "contact" && std::holds_alternative<RigidContact>(drive().contact)) {
+      refuse_key("gearbox.torsional_stiffness", "must not stand beside contact.kind = \"rigid\"");
     }
     if (name == "contact" && std::holds_alternative<CompliantContact>(drive().contact)) {
       section.refuse("restitution",
@@ -301,6 +352,10 @@ class DriveReader {
     if (name == loop && has("sensor")) {
       section.refuse("sensor", "must not stand beside [sensor], which already gives it");
     }
+  }
+
+  void refuse_key(const char* path, const std::string& permitted) {
+    if (const toml::node* node = document_.value_at(path)) findings_.refuse(path, *node, permitted);
   }
 
   bool is_required_in(const std::string& section, const Parameter& parameter) const {
@@ -323,8 +378,9 @@ class DriveReader {
   void read_value(SectionReader& section, const std::string& name, const Parameter& parameter,
                   const Key& key, const Slot& slot, bool kind_is_known) {
     const std::string given = name_in_file(std::string(parameter.path));
-    if (is_robots_form() && !is_of_robots(name) && given != parameter.path &&
-        section.has(key.name)) {
+    const bool is_elsewhere = section_of(given) != name && section_of(given) != loop;
+    if (is_elsewhere && !is_of_robots(name) && document_.value_at(given) != nullptr) {
+      section.know(key.name);
       section.refuse(key.name, "must not stand beside " + given + ": one gives the other");
       return;
     }
@@ -366,48 +422,68 @@ class DriveReader {
   }
 
   double read_number_of(SectionReader& section, const Parameter& parameter, const Key& key) {
-    const Dimension* dimension = parameter.dimension(drive());
     if (parameter.section() == "controller" && !motor_is_known_) {
       section.know(key.name);  // its unit depends on the motor
       return 1.0;
     }
-    if (key.form != nullptr && key.form->dimension != nullptr) {
-      return read_inverse(section, key.name, *key.form);
+    const std::vector<NumberForm> forms =
+        number_forms(parameter, drive(), key.form != nullptr ? key.form->path : parameter.path);
+    const NumberForm* form = first_of(forms, [&](const NumberForm& one) {
+      return one.dimension && section.is_of(key.name, *one.dimension);
+    });
+    if (form == nullptr) form = &forms.front();
+    if (!form->refusal.empty()) {
+      section.refuse(key.name, form->refusal);
+      return 1.0;
     }
-    if (dimension == nullptr) {
-      return section.number(key.name, wanted_text(parameter), number_text(parameter));
+    const std::size_t tolerances = file_.tolerances.size();
+    const double number = read_in(section, parameter, key, *form);
+    if (form->form == nullptr) return number;
+    if (file_.tolerances.size() > tolerances) {
+      file_.tolerances.pop_back();
+      section.refuse(key.name, "must have no tolerance in this form: give it as " +
+                                   std::string(parameter.path));
     }
-    const OtherForm* inverse = inverse_form(parameter);
-    if (inverse != nullptr && !section.is_of(key.name, *dimension) &&
-        section.is_of(key.name, *inverse->dimension)) {
-      return read_inverse(section, key.name, *inverse);
+    try {
+      return value_of_form(*form->form, number, drive(), key.name);
+    } catch (const InvalidInput& problem) {
+      section.refuse(key.name, problem.faults().front().permitted);
+      return 1.0;
     }
-    const Measured value = section.quantity(key.name, *dimension);
+  }
+
+  double read_in(SectionReader& section, const Parameter& parameter, const Key& key,
+                 const NumberForm& form) {
+    if (!form.dimension) {
+      return form.factor * section.number(key.name, wanted_text(parameter), number_text(parameter));
+    }
+    const Measured value = section.quantity(key.name, *form.dimension, form.factor);
     if (parameter.path == "gearbox.backlash" || parameter.path == "servo.backlash") {
       file_.angle = {.name = value.unit, .radians = value.unit_in_si};
     }
     return value.si;
   }
 
-  static double read_inverse(SectionReader& section, const std::string& key,
-                             const OtherForm& form) {
-    const double number = section.quantity(key, *form.dimension).si;
-    if (number != 0.0) return form.inverse / number;
-    section.refuse(key, "must not be 0: it is taken as a reciprocal");
-    return 1.0;
-  }
-
-  /// Checks a value of an unreadable kind: whether it is readable and within its range.
-  void check_value(SectionReader& section, const Parameter& parameter, const Key& key) {
-    const Dimension* dimension = parameter.dimension(drive());
-    if (dimension == nullptr || parameter.section() == "controller") return;
-    if (!section.has(key.name)) return section.know(key.name);
-    const double value = section.quantity(key.name, *dimension).si;
-    RangeCheck check;
-    check_number(check, parameter, value, dimension->unit);
-    if (!check.faults().empty()) {
-      section.refuse(key.name, check.faults().front().permitted);
-    }
+  /// Checks a value that the drive has only with another kind than the unreadable one: whether it
+  /// is readable and within its range.
+  void check_value(SectionReader& section, const std::string& name, const Parameter& parameter,
+                   const Key& key) {
+    if (!section.has(key.name)) return;
+    const WrittenDrive before = file_;
+    bool is_read = false;
+    for_each_kind(name, [&](const Drive& other, std::string_view) {
+      if (is_read || !exists(parameter, other)) return;
+      is_read = true;
+      drive() = other;
+      const Slot slot = parameter.slot(drive());
+      read_value(section, name, parameter, key, slot, false);
+      const double* number = given_number(slot);
+      if (number == nullptr || (name == "controller" && !motor_is_known_)) return;
+      RangeCheck check;
+      check_number(check, parameter, *number, "");
+      if (!check.faults().empty()) section.refuse(key.name, check.faults().front().permitted);
+    });
+    file_ = before;
   }
 
   void read_table(SectionReader& section, const Parameter& parameter, const std::string& file) {
@@ -451,7 +527,7 @@ class DriveReader {
 
   void check_tolerances() {
     for (ParameterTolerance& tolerance : file_.tolerances) {
-      tolerance.path = std::string(find_parameter(tolerance.path)->path);
+      tolerance.path = std::string(find_parameter(tolerance.path, drive())->path);
     }
     // "gearbox.backlash.min" is located at "gearbox.backlash".
     const auto name_of = [&](const std::string& field) {
