@@ -1,11 +1,14 @@
 #include "input/drive_reader.hpp"
 
 #include <array>
+#include <map>
 
 #include "base/lists.hpp"
 #include "input/foreign_words.hpp"
+#include "input/number_reader.hpp"
 #include "input/parameter_text.hpp"
 #include "input/robot_form.hpp"
+#include "input/section_kinds.hpp"
 #include "input/signal_reader.hpp"
 #include "input/units.hpp"
 #include "model/normalized_servo.hpp"
@@ -229,13 +232,9 @@ class DriveReader {
       if (keys.empty()) continue;
       const Slot slot = parameter.slot(drive());
       const bool is_kind = parameter.is_required && !parameter.choices.empty();
-      const bool has_it = !std::holds_alternative<std::monostate>(slot);
-      if (!has_it && kind_is_known) continue;
+      if (std::holds_alternative<std::monostate>(slot)) continue;
+      if (!kind_is_known && !is_of_every_kind(parameter, drive(), name)) continue;
       const Key key = key_given(section, keys);
-      if (!has_it) {
-        check_value(section, name, parameter, key);
-        continue;
-      }
       if (is_kind) {
         kind_is_known = read_choice(section, name, parameter, key, std::get<Choice>(slot));
       } else {
@@ -244,50 +243,15 @@ class DriveReader {
     }
     if (name == "motor") motor_is_known_ = kind_is_known;
     if (is_kind_set(name) || !kind_is_known) know_keys_of_all_kinds(section, name);
+    if (!kind_is_known) check_keys_of_any_kind(section, name);
     refuse_rivals(section, name);
     section.refuse_other_keys([&](const std::string& key, const std::vector<std::string>& known) {
-      const std::string kinds = kinds_with(name, key);
+      const std::string why = why_of_other_kind(drive(), name, key);
+      if (!why.empty()) return why;
       const std::string guess = guess_of_key(name, key, known);
-      if (!kinds.empty()) {
-        return "is not a key of [" + name + "] with " + kind_of(name) + ", but with " + kinds;
-      }
       if (!kind_is_known) return "is not a key of any kind of [" + name + "]" + guess;
       return "is not a key of [" + name + "]: must be one of " + listed(known) + guess;
     });
-  }
-
-  /// "kind = "PD"", of the section.
-  std::string kind_of(const std::string& section) {
-    const Parameter& kind = *find_parameter(section + ".kind");
-    const std::size_t index = std::get<Choice>(kind.slot(drive())).chosen(drive());
-    return "kind = \"" + std::string(kind.choices[index]) + "\"";
-  }
-
-  /// Whether the drive has a parameter that the section may give by this key.
-  static bool takes_key(Drive& drive, const std::string& section, const std::string& key) {
-    return any_of(all_parameters_of_drives(), [&](const Parameter& parameter) {
-      return has_name(parameter, section + "." + key) && exists(parameter, drive);
-    });
-  }
-
-  /// Calls `use` with the drive as it would be with each kind that the section may have.
-  template <class Use>
-  void for_each_kind(const std::string& section, const Use& use) {
-    const Parameter* kind = find_parameter(section + ".kind");
-    for (std::size_t i = 0; kind != nullptr && i < kind->choices.size(); ++i) {
-      Drive other = drive();
-      std::get<Choice>(kind->slot(other)).choose(other, i);
-      use(other, kind->choices[i]);
-    }
-  }
-
-  /// ""PD" or "PID"", the kinds of the section that have the key; empty if none has.
-  std::string kinds_with(const std::string& section, const std::string& key) {
-    std::vector<std::string> kinds;
-    for_each_kind(section, [&](Drive& other, std::string_view kind) {
-      if (takes_key(other, section, key)) kinds.push_back("\"" + std::string(kind) + "\"");
-    });
-    return alternatives(kinds);
   }
 
   /// Whether --set gives the kind. The file's keys may then belong to another kind.
@@ -426,64 +390,51 @@ class DriveReader {
       section.know(key.name);  // its unit depends on the motor
       return 1.0;
     }
-    const std::vector<NumberForm> forms =
-        number_forms(parameter, drive(), key.form != nullptr ? key.form->path : parameter.path);
-    const NumberForm* form = first_of(forms, [&](const NumberForm& one) {
-      return one.dimension && section.is_of(key.name, *one.dimension);
-    });
-    if (form == nullptr) form = &forms.front();
-    if (!form->refusal.empty()) {
-      section.refuse(key.name, form->refusal);
-      return 1.0;
-    }
-    const std::size_t tolerances = file_.tolerances.size();
-    const double number = read_in(section, parameter, key, *form);
-    if (form->form == nullptr) return number;
-    if (file_.tolerances.size() > tolerances) {
-      file_.tolerances.pop_back();
-      section.refuse(key.name, "must have no tolerance in this form: give it as " +
-                                   std::string(parameter.path));
-    }
-    try {
-      return value_of_form(*form->form, number, drive(), key.name);
-    } catch (const InvalidInput& problem) {
-      section.refuse(key.name, problem.faults().front().permitted);
-      return 1.0;
-    }
-  }
-
-  double read_in(SectionReader& section, const Parameter& parameter, const Key& key,
-                 const NumberForm& form) {
-    if (!form.dimension) {
-      return form.factor * section.number(key.name, wanted_text(parameter), number_text(parameter));
-    }
-    const Measured value = section.quantity(key.name, *form.dimension, form.factor);
+    const std::string_view path = key.form != nullptr ? key.form->path : parameter.path;
+    const Measured value = gearlash::read_number_of(section, key.name, parameter, path, drive(),
+                                                    wanted_text(parameter));
     if (parameter.path == "gearbox.backlash" || parameter.path == "servo.backlash") {
       file_.angle = {.name = value.unit, .radians = value.unit_in_si};
     }
     return value.si;
   }
 
-  /// Checks a value that the drive has only with another kind than the unreadable one: whether it
-  /// is readable and within its range.
-  void check_value(SectionReader& section, const std::string& name, const Parameter& parameter,
-                   const Key& key) {
-    if (!section.has(key.name)) return;
+  /// The fault of a key as the parameter of a drive, whether it is readable and within its range;
+  /// "" if it is sound.
+  std::string why_unfit(const std::string& name, const Parameter& parameter, const Key& key,
+                        const Drive& of_kind) {
+    Findings findings(document_);
+    SectionReader section(document_, findings, name, false, "");
     const WrittenDrive before = file_;
-    bool is_read = false;
-    for_each_kind(name, [&](const Drive& other, std::string_view) {
-      if (is_read || !exists(parameter, other)) return;
-      is_read = true;
-      drive() = other;
-      const Slot slot = parameter.slot(drive());
-      read_value(section, name, parameter, key, slot, false);
-      const double* number = given_number(slot);
-      if (number == nullptr || (name == "controller" && !motor_is_known_)) return;
-      RangeCheck check;
-      check_number(check, parameter, *number, "");
-      if (!check.faults().empty()) section.refuse(key.name, check.faults().front().permitted);
-    });
+    drive() = of_kind;
+    const Slot slot = parameter.slot(drive());
+    read_value(section, name, parameter, key, slot, false);
+    const double* number = given_number(slot);
+    RangeCheck check;
+    if (number != nullptr) check_number(check, parameter, *number, "");
     file_ = before;
+    if (const std::string why = findings.first(); !why.empty()) return why;
+    return check.faults().empty() ? "" : check.faults().front().permitted;
+  }
+
+  /// Of a section whose kind is not known: refuses the values that no kind takes.
+  void check_keys_of_any_kind(SectionReader& section, const std::string& name) {
+    std::map<std::string, std::string> reasons;  // why the keys are unfit, "" if they are not
+    for (const auto& [of_kind, kind] : drives_of_kinds(drive(), name)) {
+      for (const Parameter& parameter : all_parameters_of_drives()) {
+        if (!exists(parameter, of_kind)) continue;
+        for (const Key& key : keys_of(parameter, name)) {
+          if (!section.has(key.name)) continue;
+          const auto [reason, is_new] = reasons.try_emplace(key.name);
+          if (!is_new && reason->second.empty()) continue;
+          const std::string why = why_unfit(name, parameter, key, of_kind);
+          if (is_new || why.empty()) reason->second = why;
+        }
+      }
+    }
+    for (const auto& [key, reason] : reasons) {
+      if (!reason.empty()) section.refuse(key, reason);
+    }
   }
 
   void read_table(SectionReader& section, const Parameter& parameter, const std::string& file) {

@@ -2,6 +2,7 @@
 
 #include "base/lists.hpp"
 #include "input/parameter_text.hpp"
+#include "input/robot_form.hpp"
 #include "input/section_reader.hpp"
 #include "input/units.hpp"
 
@@ -52,6 +53,14 @@ std::vector<std::string> nearer(const std::vector<std::string>& paths, std::stri
     if (section_of(path) == section) own.push_back(key_of(path));
   }
   return own.empty() ? paths : own;
+}
+
+/// Those of a drive as it is built, without the normal form's and robots', if there are any.
+std::vector<std::string> of_plants(const std::vector<std::string>& paths) {
+  const auto built = those_of(paths, [](const std::string& path) {
+    return section_of(path) != "servo" && !is_of_robots(section_of(path));
+  });
+  return built.empty() ? paths : built;
 }
 
 std::string question(const std::vector<std::string>& names) {
@@ -147,7 +156,7 @@ std::string guess_of_key(std::string_view section, std::string_view key,
   const bool is_of_section =
       any_of(foreign, [&](const std::string& path) { return section_of(path) == section; });
   if (paths.empty() || is_of_section) paths = foreign;
-  return paths.empty() ? guess_of(known, key) : question(nearer(paths, section));
+  return paths.empty() ? guess_of(known, key) : question(nearer(of_plants(paths), section));
 }
 
 std::string guess_of_path(std::string_view path, const std::vector<std::string>& known) {
@@ -159,7 +168,7 @@ std::string guess_of_path(std::string_view path, const std::vector<std::string>&
   names = those_of(names, [&](const std::string& name) { return contains(known, name); });
   const auto own =
       those_of(names, [&](const std::string& name) { return section_of(name) == section; });
-  if (!names.empty()) return question(own.empty() ? names : own);
+  if (!names.empty()) return question(own.empty() ? of_plants(names) : own);
   const std::string guess = guess_of(known, path);
   if (!guess.empty() || has_section) return guess;
   const auto near = nearest(of_each(known, key_of), path);

@@ -226,6 +226,12 @@ std::vector<std::vector<double>> SectionReader::rows(const std::string& key,
                    });
 }
 
+bool SectionReader::has_tolerance(const std::string& key) const {
+  return tolerances_ != nullptr && any_of(*tolerances_, [&](const ParameterTolerance& one) {
+           return one.path == field(key);
+         });
+}
+
 void SectionReader::refuse(const std::string& key, const std::string& permitted) {
   if (const toml::node* value = find(key)) findings_.refuse(field(key), *value, permitted);
 }

@@ -42,6 +42,8 @@ class Findings {
       });
 
   bool none() const { return found_.empty(); }
+  /// What the first finding permits; "" if there is none.
+  std::string first() const { return none() ? "" : found_.front().fault.permitted; }
   /// Throws InvalidInput with all findings in the order of the file.
   void require_none();
 
@@ -73,6 +75,9 @@ class SectionReader {
   void collect_tolerances(std::vector<ParameterTolerance>& tolerances) {
     tolerances_ = &tolerances;
   }
+
+  /// Whether collect_tolerances() was called and the number of this key was read with a tolerance.
+  bool has_tolerance(const std::string& key) const;
 
   /// Accepts a key of this section without reading it.
   void know(const std::string& key);

@@ -300,7 +300,7 @@ TEST(UnknownKind, HidesNoOtherFaultOfTheController) {
   const std::string keys =
       "position = \"30 rad\"\nspeed = \"0.05 N m s/rad\"\nlaw = 3\nnum = \"x\"\n"
       "tracking_time = \"-1 ms\"\nderivative_of = \"spede\"\nvel_gain = -2\n"
-      "take_up_time = 3\nnonsense = 1\n";
+      "friction_compensation = 3\nnonsense = 1\n";
   const auto faults_beside = [&](const std::string& kind, const std::string& fault) {
     EXPECT_THAT(
         refusals(kind + keys),
@@ -311,7 +311,7 @@ TEST(UnknownKind, HidesNoOtherFaultOfTheController) {
             HasSubstr("controller.tracking_time = -1 ms: must be zero or positive"),
             HasSubstr("controller.derivative_of = spede: must be one of error, speed"),
             HasSubstr("controller.vel_gain = -2: must be zero or positive"),
-            HasSubstr("controller.take_up_time = 3: must be a time with its unit"),
+            HasSubstr("controller.friction_compensation = 3: must be a torque with its unit"),
             HasSubstr("controller.nonsense = 1: is not a key of any kind of [controller]")));
   };
   faults_beside("kind = \"cascad\"\n", "controller.kind = cascad: must be one of");

@@ -1,0 +1,45 @@
+#include "input/number_reader.hpp"
+
+#include "base/lists.hpp"
+#include "input/parameter_text.hpp"
+
+namespace gearlash {
+namespace {
+
+Measured read_in(SectionReader& section, const std::string& key, const Parameter& parameter,
+                 const NumberForm& form, const std::string& wanted) {
+  if (form.dimension) return section.quantity(key, *form.dimension, form.factor);
+  return {.si = form.factor * section.number(key, wanted, number_text(parameter))};
+}
+
+}  // namespace
+
+Measured read_number_of(SectionReader& section, const std::string& key, const Parameter& parameter,
+                        std::string_view path, const Drive& drive, const std::string& wanted) {
+  const Measured placeholder{.si = 1.0};
+  const std::vector<NumberForm> forms = number_forms(parameter, drive, path);
+  const NumberForm* form = first_of(forms, [&](const NumberForm& one) {
+    return one.dimension && section.is_of(key, *one.dimension);
+  });
+  if (form == nullptr) form = &forms.front();
+  if (!form->refusal.empty()) {
+    section.refuse(key, form->refusal);
+    return placeholder;
+  }
+  Measured read = read_in(section, key, parameter, *form, wanted);
+  if (form->form == nullptr) return read;
+  if (section.has_tolerance(key)) {
+    section.refuse(
+        key, "must have no tolerance in this form: give it as " + std::string(parameter.path));
+    return placeholder;
+  }
+  try {
+    read.si = value_of_form(*form->form, read.si, drive, key);
+  } catch (const InvalidInput& problem) {
+    section.refuse(key, problem.faults().front().permitted);
+    return placeholder;
+  }
+  return read;
+}
+
+}  // namespace gearlash
