@@ -26,7 +26,9 @@ constexpr std::pair<const char*, const char*> number_options[] = {
     {"Set the damping ratio: 0, or 1e-15 to 1000", "NUMBER"},
     {"Set the inertia ratio, load to motor: 0 to inf", "NUMBER"},
     {"Set the friction ratio, load to total: 0 to 1", "NUMBER"},
-    {"Set the backlash at the load, face to face, in rad or with a unit: \"12 arcmin\"", "ANGLE"},
+    {"Set the backlash at the load, face to face: \"12 arcmin\"; in rad if it is bare, without a "
+     "file",
+     "ANGLE"},
     {"Set the restitution: 0 (plastic, the default) to 1 (elastic)", "NUMBER"}};
 
 struct SpecificationOption {
@@ -256,14 +258,15 @@ std::vector<Fault> named_as_typed(std::vector<Fault> faults, const ServoOptions&
   return faults;
 }
 
-/// Numbers that an option and --set give differently.
+/// A backlash that an option and --set give differently.
 std::vector<Fault> contradictions(const std::vector<Setting>& options,
                                   const std::vector<Setting>& settings) {
   std::vector<Fault> found;
   for (const Setting& option : options) {
     for (const Setting& setting : settings) {
-      if (find_parameter(setting.path) != find_parameter(option.path)) continue;
-      if (setting.text == option.text) continue;
+      const bool is_it = option.path.ends_with("backlash") &&
+                         find_parameter(setting.path) == find_parameter(option.path);
+      if (!is_it || setting.text == option.text) continue;
       found.push_back({option.path, option.text,
                        "must not stand beside --set " + setting.path + "=" + shown(setting.text) +
                            ": give one of them"});
