@@ -232,7 +232,11 @@ class DriveReader {
       if (keys.empty()) continue;
       const Slot slot = parameter.slot(drive());
       const bool is_kind = parameter.is_required && !parameter.choices.empty();
-      if (std::holds_alternative<std::monostate>(slot)) continue;
+      if (std::holds_alternative<std::monostate>(slot)) {
+        // What the file gives by another section's key is there: infer_kind_of_contact().
+        if (parameter.section() != name) section.know(keys.front().name);
+        continue;
+      }
       if (!kind_is_known && !is_of_every_kind(parameter, drive(), name)) continue;
       const Key key = key_given(section, keys);
       if (is_kind) {

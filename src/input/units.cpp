@@ -165,7 +165,10 @@ Measured read_quantity(std::string_view field, std::string_view text, const Dime
     return {.si = 0.0, .unit = std::string(expected.unit)};  // in every unit
   }
   if (length == 0 || name.empty()) {
-    refuse(field, text, "must be " + with_unit(expected) + such_as(expected));
+    const bool is_limit = trimmed_text.starts_with('<') || trimmed_text.starts_with("≤");
+    refuse(field, text,
+           "must be " + with_unit(expected) + such_as(expected) +
+               (is_limit ? "; a limit is a range, { min = \"…\", max = \"…\" }" : ""));
   }
   if (name.starts_with(',')) {
     refuse(field, text, "must be " + described(expected) + "; the decimal sign is a point");

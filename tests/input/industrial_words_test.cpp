@@ -231,6 +231,15 @@ TEST(TorsionalStiffness, OfTheGearboxIsThatOfTheFaces) {
               ElementsAre(HasSubstr("contact.restitution = 0.5: must not stand beside stiffness")));
 }
 
+TEST(DataSheets, PrintLimitsThatAreNoValues) {
+  const std::string text = plant + "kind = \"P\"\nKp = \"1 Nm/rad\"\n";
+  for (const std::string limit : {"≤ 10 arcmin", "<10 arcmin", "<= 10 arcmin"}) {
+    EXPECT_THAT(refusals_of_text(replaced(text, "10 arcmin", limit)),
+                ElementsAre(EndsWith("a limit is a range, { min = \"…\", max = \"…\" }")))
+        << limit;
+  }
+}
+
 // ---- suggestions --------------------------------------------------------------------------------
 
 TEST(ForeignWords, LeadToParametersAndAreNoneThemselves) {
