@@ -390,11 +390,13 @@ class DriveReader {
   }
 
   double read_number_of(SectionReader& section, const Parameter& parameter, const Key& key) {
+    const std::string_view path = key.form != nullptr ? key.form->path : parameter.path;
     if (parameter.section() == "controller" && !motor_is_known_) {
-      section.know(key.name);  // its unit depends on the motor
+      const auto drives = of_each(drives_of_kinds(drive(), "motor"),
+                                  [](const auto& of_kind) { return of_kind.first; });
+      refuse_other_units(section, key.name, parameter, path, drives);
       return 1.0;
     }
-    const std::string_view path = key.form != nullptr ? key.form->path : parameter.path;
     const Measured value = gearlash::read_number_of(section, key.name, parameter, path, drive(),
                                                     wanted_text(parameter));
     if (parameter.path == "gearbox.backlash" || parameter.path == "servo.backlash") {

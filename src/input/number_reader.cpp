@@ -42,4 +42,21 @@ Measured read_number_of(SectionReader& section, const std::string& key, const Pa
   return read;
 }
 
+void refuse_other_units(SectionReader& section, const std::string& key, const Parameter& parameter,
+                        std::string_view path, const std::vector<Drive>& drives) {
+  section.know(key);
+  std::vector<std::string> permitted;
+  for (const Drive& drive : drives) {
+    const std::vector<NumberForm> forms = number_forms(parameter, drive, path);
+    for (const NumberForm& form : forms) {
+      if (!form.dimension || section.is_of(key, *form.dimension)) return;
+    }
+    const std::string one = described(*forms.front().dimension);
+    if (!contains(permitted, one)) permitted.push_back(one);
+  }
+  section.refuse(key,
+                 "must be " + listed(
+                                  permitted, [](const std::string& one) { return one; }, ", or "));
+}
+
 }  // namespace gearlash

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "input/section_reader.hpp"
 #include "model/parameters.hpp"
@@ -14,5 +15,10 @@ namespace gearlash {
 /// parameter or the drive cannot have. `wanted` is SectionReader::number()'s.
 Measured read_number_of(SectionReader& section, const std::string& key, const Parameter& parameter,
                         std::string_view path, const Drive& drive, const std::string& wanted);
+
+/// Records a fault if the key is given and fits the parameter in none of the drives: those of each
+/// kind of motor, where the file's is not known.
+void refuse_other_units(SectionReader& section, const std::string& key, const Parameter& parameter,
+                        std::string_view path, const std::vector<Drive>& drives);
 
 }  // namespace gearlash

@@ -347,6 +347,17 @@ TEST(UnknownKind, OfTheMotorHidesNoFaultOfItsKeys) {
               ElementsAre(HasSubstr("motor.kind = servo"),
                           HasSubstr("motor.resistance = -2 ohm: must be positive"),
                           HasSubstr("motor.none = 1: is not a key of any kind of [motor]")));
+  const auto of_gain = [&](const std::string& gain) {
+    return refusals_of_text(replaced(plant, "\"torque-controlled\"", "\"servo\"") +
+                            "kind = \"P\"\nKp = \"" + gain + "\"\n");
+  };
+  for (const char* gain : {"1 Nm/rad", "3 V/deg", "2 A/rad"}) {
+    EXPECT_THAT(of_gain(gain), ElementsAre(HasSubstr("motor.kind = servo"))) << gain;
+  }
+  EXPECT_THAT(of_gain("2 kg"),
+              ElementsAre(HasSubstr("motor.kind = servo"),
+                          EndsWith("controller.Kp = 2 kg: must be a voltage per angle, such as "
+                                   "10 V/rad, or a torque per angle, such as 20 N m/rad")));
 }
 
 }  // namespace
