@@ -44,8 +44,8 @@ std::string text_on_counted_turns(const Drive& drive) {
   const std::string product = text_of(ratio * moteus->rotor_to_output_ratio);
   const bool is_on_load = drive.sensor.position != SensorPlace::motor;
   return "One turn of the load is " + (is_on_load ? "1" : product) +
-         " of those that moteus counts, and its newton metre is " + product +
-         " at the load: gearbox.ratio " + text_of(ratio) +
+         " of those that moteus counts, and a torque of 1 N m in its registers is " + product +
+         " N m at the load: gearbox.ratio " + text_of(ratio) +
          ", which is the gear, times rotor_to_output_ratio " +
          text_of(moteus->rotor_to_output_ratio) + ", which is what moteus knows of it.";
 }

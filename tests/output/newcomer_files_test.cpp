@@ -56,5 +56,18 @@ TEST(NewcomerFiles, AreToldAllThatLacks) {
                     "2 N m")));
 }
 
+/// The gear's ratio and the firmware's multiply; never in silence.
+TEST(NewcomerFiles, TwoRatiosAreNoted) {
+  const auto note = [](const char* ratio) {
+    const fs::path file = folder / "moteus.toml";
+    return show_text(parse_drive(read_text_file(file, largest_drive_file), file.string(), {},
+                                 {{"controller.rotor_to_output_ratio", ratio}})
+                         .drive);
+  };
+  EXPECT_THAT(note("1"), HasSubstr("One turn of the load is 8 of those that moteus counts"));
+  EXPECT_THAT(note("0.125"), HasSubstr("One turn of the load is 1 of those that moteus counts"));
+  EXPECT_THAT(note("0.25"), HasSubstr("One turn of the load is 2 of those that moteus counts"));
+}
+
 }  // namespace
 }  // namespace gearlash::newcomer_files_test
