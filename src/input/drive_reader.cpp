@@ -80,6 +80,23 @@ std::string wanted_text(const Parameter& parameter) {
   return std::string(parameter.wanted);
 }
 
+/// A current that times the torque constant gives a torque.
+void refuse_current(SectionReader& section, const char* current, const std::string& torque,
+                    bool is_taken, const char* otherwise) {
+  if (!section.has(current)) return;
+  if (section.has(torque)) {
+    section.refuse(current,
+                   "must not stand beside " + torque + ": it gives it, times torque_constant");
+  } else if (!is_taken) {
+    section.refuse(current, otherwise);
+  }
+}
+
+/// The points of a table, which stand in the drive's file instead of one of their own.
+bool is_of_points(const Parameter& parameter) {
+  return parameter.path.ends_with(".times") || parameter.path.ends_with(".values");
+}
+
 class DriveReader {
  public:
   DriveReader(const TomlDocument& document, Findings& findings, const std::filesystem::path& folder,
@@ -279,18 +296,6 @@ class DriveReader {
     return given == nullptr ? keys.front() : *given;
   }
 
-  /// A current that times the torque constant gives a torque.
-  static void refuse_current(SectionReader& section, const char* current, const std::string& torque,
-                             bool is_taken, const char* otherwise) {
-    if (!section.has(current)) return;
-    if (section.has(torque)) {
-      section.refuse(current,
-                     "must not stand beside " + torque + ": it gives it, times torque_constant");
-    } else if (!is_taken) {
-      section.refuse(current, otherwise);
-    }
-  }
-
   /// Refuses keys whose parameter the drive has lost because of another key.
   void refuse_rivals(SectionReader& section, const std::string& name) {
     if (name == "motor" && motor_is_known_) {
@@ -377,11 +382,6 @@ class DriveReader {
       section.know(key.name);
       if (may_be_left_out(parameter)) set_number(slot, 1.0);
     }
-  }
-
-  /// The points of a table, which stand in the drive's file instead of one of their own.
-  static bool is_of_points(const Parameter& parameter) {
-    return parameter.path.ends_with(".times") || parameter.path.ends_with(".values");
   }
 
   /// A sweep may omit the normal form's backlash; amplitudes are then in backlashes.

@@ -93,7 +93,7 @@ std::vector<NumberForm> number_forms(const Parameter& parameter, const Drive& dr
     return {{.dimension = dimension, .factor = value_of_form(*named, 1.0, drive)}};
   }
   const Dimension* own = parameter.dimension(drive);
-  if (own == nullptr) return {{}};
+  if (own == nullptr) return {NumberForm{}};
   std::vector<NumberForm> forms = {{.dimension = *own}};
   if (takes_currents(parameter, *own)) forms.push_back(in_currents(*own, drive));
   for (const OtherForm& form : parameter.other_forms) {

@@ -24,11 +24,11 @@ bool is_of_every_kind(const Parameter& parameter, const Drive& drive, const std:
 std::string why_of_other_kind(const Drive& drive, const std::string& section,
                               const std::string& key) {
   std::vector<std::string> kinds;
-  for (const auto& [other, kind] : drives_of_kinds(drive, section)) {
+  for (const auto& of_kind : drives_of_kinds(drive, section)) {
     const bool has_it = any_of(all_parameters_of_drives(), [&](const Parameter& parameter) {
-      return has_name(parameter, section + "." + key) && exists(parameter, other);
+      return has_name(parameter, section + "." + key) && exists(parameter, of_kind.first);
     });
-    if (has_it) kinds.push_back("\"" + std::string(kind) + "\"");
+    if (has_it) kinds.push_back("\"" + std::string(of_kind.second) + "\"");
   }
   if (kinds.empty()) return "";
   const Parameter& kind = *find_parameter(section + ".kind");
