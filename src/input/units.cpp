@@ -74,7 +74,8 @@ std::string advice(std::string_view unit, const UnitPowers& powers, const Dimens
   if (divisor != std::string_view::npos && unit[divisor] >= '0' && unit[divisor] <= '9') {
     return "; x/1000 rpm is (x/1000) rpm, write x/(1000 rpm)";
   }
-  if (slash != std::string_view::npos && unit.find('/', slash + 1) != std::string_view::npos) {
+  const bool has_two = slash != std::string_view::npos && unit.find('/', slash + 1) != unit.npos;
+  if (has_two && unit.find('(') == unit.npos) {
     return "; x/rad/s is x/(rad s), write x/(rad/s)";
   }
   if (!same_but_for_angle(powers, expected)) return "";
