@@ -220,6 +220,8 @@ TEST(Units, RefusesAnotherDimensionAndSaysWhatItExpects) {
       refusal("28.2 oz in/A", torque_per_current),
       "key = 28.2 oz in/A: must be a torque per current, such as 0.35 N m/A; oz, lb, g and kg are "
       "masses, the forces are ozf, lbf, gf and kgf");
+  EXPECT_EQ(refusal("1 A/(rad/s)", torque_per_angle),
+            "key = 1 A/(rad/s): must be a torque per angle, such as 20 N m/rad");
   EXPECT_EQ(
       refusal("0.233 V/rad/s", voltage_per_speed),
       "key = 0.233 V/rad/s: must be a voltage per angular speed, such as 3.67 mV/rpm; x/rad/s is "
