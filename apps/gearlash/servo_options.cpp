@@ -26,7 +26,9 @@ constexpr std::pair<const char*, const char*> number_options[] = {
     {"Set the damping ratio: 0, or 1e-15 to 1000", "NUMBER"},
     {"Set the inertia ratio, load to motor: 0 to inf", "NUMBER"},
     {"Set the friction ratio, load to total: 0 to 1", "NUMBER"},
-    {"Set the backlash at the load, face to face, in rad or with a unit: \"12 arcmin\"", "ANGLE"},
+    {"Set the backlash at the load, face to face: \"12 arcmin\"; in rad if it is bare, without a "
+     "file",
+     "ANGLE"},
     {"Set the restitution: 0 (plastic, the default) to 1 (elastic)", "NUMBER"}};
 
 struct SpecificationOption {
@@ -65,10 +67,10 @@ std::vector<TypedNumber> typed_numbers(const ServoOptions& options) {
   return typed;
 }
 
-/// As --set would give it. A bare backlash is in radians.
+/// As --set would give it. A bare backlash of a normal form is in radians.
 Setting setting_of(const TypedNumber& typed, bool is_normal_form) {
   const std::string path(path_of(typed.number, is_normal_form));
-  const bool is_bare = path.ends_with("backlash") && bare_number(typed.text);
+  const bool is_bare = path == "servo.backlash" && bare_number(typed.text);
   return {path, typed.text + (is_bare ? " rad" : "")};
 }
 
@@ -261,6 +263,23 @@ std::vector<Fault> named_as_typed(std::vector<Fault> faults, const ServoOptions&
   return faults;
 }
 
+/// A backlash that an option and --set give differently.
+std::vector<Fault> contradictions(const std::vector<Setting>& options,
+                                  const std::vector<Setting>& settings) {
+  std::vector<Fault> found;
+  for (const Setting& option : options) {
+    for (const Setting& setting : settings) {
+      const bool is_it = option.path.ends_with("backlash") &&
+                         find_parameter(setting.path) == find_parameter(option.path);
+      if (!is_it || setting.text == option.text) continue;
+      found.push_back({option.path, option.text,
+                       "must not stand beside --set " + setting.path + "=" + shown(setting.text) +
+                           ": give one of them"});
+    }
+  }
+  return found;
+}
+
 /// The normal form of a drive with the numbers changed by options. The natural frequency stays.
 WrittenDrive changed_normal_form(const WrittenDrive& written, const ServoOptions& options) {
   const std::optional<Drive> form = normal_form_of(written.drive);
@@ -294,6 +313,7 @@ WrittenDrive read_drive_as_typed(const ServoOptions& options, std::vector<Settin
     for (const TypedNumber& typed : typed_numbers(options)) {
       if (is_form || !is_ratio(typed.number)) numbers.push_back(setting_of(typed, is_form));
     }
+    require_none(contradictions(numbers, settings));
     // The last one holds: --set changes a servo of options, which change the drive of a file.
     const auto place = options.file.empty() ? settings.begin() : settings.end();
     settings.insert(place, numbers.begin(), numbers.end());

@@ -7,6 +7,7 @@
 #include "base/range_check.hpp"
 #include "gearlash/parameter.hpp"
 #include "gearlash/tune.hpp"
+#include "input/foreign_words.hpp"
 #include "input/parameter_text.hpp"
 #include "input/section_reader.hpp"
 #include "input/units.hpp"
@@ -28,7 +29,7 @@ std::string known_text(const Drive& drive, std::string_view name) {
     add_all(known, parameter.aliases);
   }
   for (const NormalFormNumber& number : normal_form_numbers) known.emplace_back(number.name);
-  return "must be a number or a choice of this drive" + guess_of(known, name) +
+  return "must be a number or a choice of this drive" + guess_of_path(name, known) +
          "; gearlash show lists them";
 }
 

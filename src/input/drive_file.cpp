@@ -6,10 +6,12 @@
 #include "base/lists.hpp"
 #include "gearlash/input.hpp"
 #include "input/drive_reader.hpp"
+#include "input/foreign_words.hpp"
 #include "input/parameter_text.hpp"
 #include "input/text_file.hpp"
 #include "input/toml_document.hpp"
 #include "input/utf8.hpp"
+#include "model/parameter_values.hpp"
 #include "model/parameters.hpp"
 
 namespace gearlash {
@@ -29,10 +31,20 @@ void take_out(TomlDocument& document, const Parameter& parameter) {
   for (const std::string_view path : paths_of(parameter)) document.remove(path);
 }
 
+/// Of every kind of drive.
+std::vector<const Parameter*> parameters_named(std::string_view path) {
+  std::vector<const Parameter*> named;
+  for (const Parameter& parameter : all_parameters_of_drives()) {
+    if (has_name(parameter, path)) named.push_back(&parameter);
+  }
+  return named;
+}
+
 /// Removes a section with its keys under any of their names ("actuator.timestep" is of [sampling]),
 /// or a key.
 void take_out(TomlDocument& document, const std::string& path) {
-  if (!is_section(path)) return take_out(document, *find_parameter(path));
+  for (const Parameter* parameter : parameters_named(path)) take_out(document, *parameter);
+  if (!is_section(path)) return;
   document.remove_section(path);
   for (const Parameter& parameter : all_parameters_of_drives()) {
     if (parameter.section() == path) take_out(document, parameter);
@@ -53,7 +65,26 @@ std::string why_unknown(const Setting& setting) {
   for (const Parameter& parameter : all_parameters_of_drives()) {
     for (const std::string_view path : paths_of(parameter)) paths.emplace_back(path);
   }
-  return "must be a parameter of a drive" + guess_of(paths, setting.path);
+  return "must be a parameter of a drive" + guess_of_path(setting.path, paths);
+}
+
+/// Removes the parameters of that name from the document, under whatever names it gives them.
+/// Returns where a value with the meaning of `path` may then stand.
+std::string cleared_place(TomlDocument& document, const std::string& path) {
+  std::string place = path;
+  // [loop] is a controller with keys of its own.
+  const bool has_loop = document.root().contains("loop") && !document.root().contains("controller");
+  for (const Parameter* parameter : parameters_named(path)) {
+    const OtherForm* named = form_named(*parameter, path);
+    const bool is_direct = named == nullptr || named->relation == Relation::same;
+    if (document.remove(parameter->path) && is_direct) place = parameter->path;
+    for (const OtherForm& form : parameter->other_forms) {
+      const bool has_same_meaning = form.relation == Relation::same && is_direct;
+      const bool is_of_loop = has_loop && section_of(form.path) == "loop";
+      if ((document.remove(form.path) || is_of_loop) && has_same_meaning) place = form.path;
+    }
+  }
+  return place;
 }
 
 /// Replaces the parameter's value, under whatever name the document gives it.
@@ -62,26 +93,7 @@ void apply(TomlDocument& document, const Setting& setting) {
     refuse(setting.path, setting.text, why);
   }
   if (setting.text == nothing) return take_out(document, setting.path);
-  const Parameter& parameter = *find_parameter(setting.path);
-  std::string place = setting.path;
-  const auto is_inverse = [&](const OtherForm& form) {
-    return form.dimension != nullptr && form.path == setting.path;
-  };
-  const bool is_direct = !any_of(parameter.other_forms, is_inverse);
-  const auto take_out = [&](std::string_view path, bool has_same_meaning) {
-    if (document.remove(path) && has_same_meaning && is_direct) place = path;
-  };
-  take_out(parameter.path, true);
-  for (const OtherForm& form : parameter.other_forms) {
-    take_out(form.path, form.dimension == nullptr);
-  }
-  // [loop] is a controller with keys of its own.
-  const auto has_section = [&](const char* name) { return document.root().contains(name); };
-  if (has_section("loop") && !has_section("controller")) {
-    for (const OtherForm& form : parameter.other_forms) {
-      if (form.path.starts_with("loop.") && is_direct) place = form.path;
-    }
-  }
+  const std::string place = cleared_place(document, setting.path);
   // Everything but a list or a table becomes text, which the key's reader parses: "30 arcmin",
   // "1/4".
   if (const std::optional<toml::array> list = list_in(setting.text)) {

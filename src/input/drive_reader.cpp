@@ -1,10 +1,14 @@
 #include "input/drive_reader.hpp"
 
 #include <array>
+#include <map>
 
 #include "base/lists.hpp"
+#include "input/foreign_words.hpp"
+#include "input/number_reader.hpp"
 #include "input/parameter_text.hpp"
 #include "input/robot_form.hpp"
+#include "input/section_kinds.hpp"
 #include "input/signal_reader.hpp"
 #include "input/units.hpp"
 #include "model/normalized_servo.hpp"
@@ -25,8 +29,9 @@ bool is_choice(const Slot& slot) { return std::holds_alternative<Choice>(slot); 
 /// A contact with a stiffness and no kind is compliant.
 void infer_kind_of_contact(const TomlDocument& document, Drive& drive) {
   const auto has = [&](const char* path) { return document.value_at(path) != nullptr; };
-  if (has("contact.kind")) return;
-  if (has("contact.stiffness") || has("contact.damping") || has("contact.law")) {
+  const bool is_compliant =
+      has("contact.stiffness") || has("contact.damping") || has("contact.law");
+  if ((is_compliant && !has("contact.kind")) || has("gearbox.torsional_stiffness")) {
     drive.contact = CompliantContact{};
   }
 }
@@ -75,6 +80,23 @@ std::string wanted_text(const Parameter& parameter) {
   return std::string(parameter.wanted);
 }
 
+/// A current that times the torque constant gives a torque.
+void refuse_current(SectionReader& section, const char* current, const std::string& torque,
+                    bool is_taken, const char* otherwise) {
+  if (!section.has(current)) return;
+  if (section.has(torque)) {
+    section.refuse(current,
+                   "must not stand beside " + torque + ": it gives it, times torque_constant");
+  } else if (!is_taken) {
+    section.refuse(current, otherwise);
+  }
+}
+
+/// The points of a table, which stand in the drive's file instead of one of their own.
+bool is_of_points(const Parameter& parameter) {
+  return parameter.path.ends_with(".times") || parameter.path.ends_with(".values");
+}
+
 class DriveReader {
  public:
   DriveReader(const TomlDocument& document, Findings& findings, const std::filesystem::path& folder,
@@ -93,6 +115,7 @@ class DriveReader {
     }
     refuse_other_sections();
     if (!has_anything()) return std::move(file_);
+    infer_kind_of_contact(document_, drive());
     for (const Section& section : all_sections()) read_section(section);
     drive().is_rounded = has_rounded_numbers();
     check();
@@ -146,8 +169,11 @@ class DriveReader {
       const std::string name(key.str());
       if (name == variation_.section) continue;
       if (!contains(names, name)) {
+        const std::string guess = guess_of_key("", name, names);
         findings_.refuse(key.source().begin, shown(name), document_.written(value),
-                         "is not a section: " + one_of(names, name));
+                         value.is_table()
+                             ? "is not a section: must be one of " + listed(names) + guess
+                             : "must stand in a section, such as [motor]" + guess);
       }
     }
     for (const char* robots : {"joint", "actuator"}) {
@@ -189,7 +215,6 @@ class DriveReader {
     const bool is_required = is_plant || (is_servo && !leaves_nothing_to_give());
     if (has(name) && !section.is_present(drive())) section.add(drive());
     if (!is_required && !is_servo && !has(name)) return;
-    if (name == "contact") infer_kind_of_contact(document_, drive());
     const char* contents =
         name == "controller" ? "with a kind and its gains, or [loop]" : section.contents.data();
     read_keys(name, is_required, contents);
@@ -207,7 +232,6 @@ class DriveReader {
                         "must be the moment of inertia that the joint moves, such as kg m2: in a "
                         "section [load]");
     }
-    if (name == "contact") infer_kind_of_contact(document_, drive());
     if (has(name)) read_keys(name, false, section.contents.data());
     if (name == "controller") read_keys("actuator", true, "with kp, kv and timestep");
   }
@@ -226,9 +250,11 @@ class DriveReader {
       const Slot slot = parameter.slot(drive());
       const bool is_kind = parameter.is_required && !parameter.choices.empty();
       if (std::holds_alternative<std::monostate>(slot)) {
-        if (!kind_is_known) check_value(section, parameter, keys.front());
+        // What the file gives by another section's key is there: infer_kind_of_contact().
+        if (parameter.section() != name) section.know(keys.front().name);
         continue;
       }
+      if (!kind_is_known && !is_of_every_kind(parameter, drive(), name)) continue;
       const Key key = key_given(section, keys);
       if (is_kind) {
         kind_is_known = read_choice(section, name, parameter, key, std::get<Choice>(slot));
@@ -237,9 +263,16 @@ class DriveReader {
       }
     }
     if (name == "motor") motor_is_known_ = kind_is_known;
-    if (is_kind_set(name)) know_keys_of_all_kinds(section, name);
+    if (is_kind_set(name) || !kind_is_known) know_keys_of_all_kinds(section, name);
+    if (!kind_is_known) check_keys_of_any_kind(section, name);
     refuse_rivals(section, name);
-    if (kind_is_known) section.refuse_other_keys();
+    section.refuse_other_keys([&](const std::string& key, const std::vector<std::string>& known) {
+      const std::string why = why_of_other_kind(drive(), name, key);
+      if (!why.empty()) return why;
+      const std::string guess = guess_of_key(name, key, known);
+      if (!kind_is_known) return "is not a key of any kind of [" + name + "]" + guess;
+      return "is not a key of [" + name + "]: must be one of " + listed(known) + guess;
+    });
   }
 
   /// Whether --set gives the kind. The file's keys may then belong to another kind.
@@ -263,18 +296,6 @@ class DriveReader {
     return given == nullptr ? keys.front() : *given;
   }
 
-  /// A current that times the torque constant gives a torque.
-  static void refuse_current(SectionReader& section, const char* current, const std::string& torque,
-                             bool is_taken, const char* otherwise) {
-    if (!section.has(current)) return;
-    if (section.has(torque)) {
-      section.refuse(current,
-                     "must not stand beside " + torque + ": it gives it, times torque_constant");
-    } else if (!is_taken) {
-      section.refuse(current, otherwise);
-    }
-  }
-
   /// Refuses keys whose parameter the drive has lost because of another key.
   void refuse_rivals(SectionReader& section, const std::string& name) {
     if (name == "motor" && motor_is_known_) {
@@ -286,13 +307,16 @@ class DriveReader {
                      "armature- or field-controlled one");
     }
     if (name == "sensor") {
-      for (const char* prefix : {"", "speed_"}) {
-        const std::string counts = std::string(prefix) + "counts_per_turn";
-        const std::string resolution = std::string(prefix) + "resolution";
-        if (section.has(counts) && section.has(resolution)) {
-          section.refuse(resolution, "must not stand beside " + counts + ": one gives the other");
+      for (const std::string prefix : {"", "speed_"}) {
+        for (const char* counts : {"counts_per_turn", "bits", "lines"}) {
+          if (!section.has(prefix + counts)) continue;
+          section.refuse(prefix + "resolution",
+                         "must not stand beside " + prefix + counts + ": one gives the other");
         }
       }
+    }
+    if (name == "contact" && std::holds_alternative<RigidContact>(drive().contact)) {
+      refuse_key("gearbox.torsional_stiffness", "must not stand beside contact.kind = \"rigid\"");
     }
     if (name == "contact" && std::holds_alternative<CompliantContact>(drive().contact)) {
       section.refuse("restitution",
@@ -301,6 +325,10 @@ class DriveReader {
     if (name == loop && has("sensor")) {
       section.refuse("sensor", "must not stand beside [sensor], which already gives it");
     }
+  }
+
+  void refuse_key(const char* path, const std::string& permitted) {
+    if (const toml::node* node = document_.value_at(path)) findings_.refuse(path, *node, permitted);
   }
 
   bool is_required_in(const std::string& section, const Parameter& parameter) const {
@@ -323,8 +351,9 @@ class DriveReader {
   void read_value(SectionReader& section, const std::string& name, const Parameter& parameter,
                   const Key& key, const Slot& slot, bool kind_is_known) {
     const std::string given = name_in_file(std::string(parameter.path));
-    if (is_robots_form() && !is_of_robots(name) && given != parameter.path &&
-        section.has(key.name)) {
+    const bool is_elsewhere = section_of(given) != name && section_of(given) != loop;
+    if (is_elsewhere && !is_of_robots(name) && document_.value_at(given) != nullptr) {
+      section.know(key.name);
       section.refuse(key.name, "must not stand beside " + given + ": one gives the other");
       return;
     }
@@ -355,58 +384,62 @@ class DriveReader {
     }
   }
 
-  /// The points of a table, which stand in the drive's file instead of one of their own.
-  static bool is_of_points(const Parameter& parameter) {
-    return parameter.path.ends_with(".times") || parameter.path.ends_with(".values");
-  }
-
   /// A sweep may omit the normal form's backlash; amplitudes are then in backlashes.
   bool may_be_left_out(const Parameter& parameter) const {
     return !variation_.section.empty() && parameter.path == "servo.backlash";
   }
 
   double read_number_of(SectionReader& section, const Parameter& parameter, const Key& key) {
-    const Dimension* dimension = parameter.dimension(drive());
+    const std::string_view path = key.form != nullptr ? key.form->path : parameter.path;
     if (parameter.section() == "controller" && !motor_is_known_) {
-      section.know(key.name);  // its unit depends on the motor
+      const auto drives = of_each(drives_of_kinds(drive(), "motor"),
+                                  [](const auto& of_kind) { return of_kind.first; });
+      refuse_other_units(section, key.name, parameter, path, drives);
       return 1.0;
     }
-    if (key.form != nullptr && key.form->dimension != nullptr) {
-      return read_inverse(section, key.name, *key.form);
-    }
-    if (dimension == nullptr) {
-      return section.number(key.name, wanted_text(parameter), number_text(parameter));
-    }
-    const OtherForm* inverse = inverse_form(parameter);
-    if (inverse != nullptr && !section.is_of(key.name, *dimension) &&
-        section.is_of(key.name, *inverse->dimension)) {
-      return read_inverse(section, key.name, *inverse);
-    }
-    const Measured value = section.quantity(key.name, *dimension);
+    const Measured value = gearlash::read_number_of(section, key.name, parameter, path, drive(),
+                                                    wanted_text(parameter));
     if (parameter.path == "gearbox.backlash" || parameter.path == "servo.backlash") {
       file_.angle = {.name = value.unit, .radians = value.unit_in_si};
     }
     return value.si;
   }
 
-  static double read_inverse(SectionReader& section, const std::string& key,
-                             const OtherForm& form) {
-    const double number = section.quantity(key, *form.dimension).si;
-    if (number != 0.0) return form.inverse / number;
-    section.refuse(key, "must not be 0: it is taken as a reciprocal");
-    return 1.0;
+  /// The fault of a key as the parameter of a drive, whether it is readable and within its range;
+  /// "" if it is sound.
+  std::string why_unfit(const std::string& name, const Parameter& parameter, const Key& key,
+                        const Drive& of_kind) {
+    Findings findings(document_);
+    SectionReader section(document_, findings, name, false, "");
+    const WrittenDrive before = file_;
+    drive() = of_kind;
+    const Slot slot = parameter.slot(drive());
+    read_value(section, name, parameter, key, slot, false);
+    const double* number = given_number(slot);
+    RangeCheck check;
+    if (number != nullptr) check_number(check, parameter, *number, "");
+    file_ = before;
+    if (const std::string why = findings.first(); !why.empty()) return why;
+    return check.faults().empty() ? "" : check.faults().front().permitted;
   }
 
-  /// Checks a value of an unreadable kind: whether it is readable and within its range.
-  void check_value(SectionReader& section, const Parameter& parameter, const Key& key) {
-    const Dimension* dimension = parameter.dimension(drive());
-    if (dimension == nullptr || parameter.section() == "controller") return;
-    if (!section.has(key.name)) return section.know(key.name);
-    const double value = section.quantity(key.name, *dimension).si;
-    RangeCheck check;
-    check_number(check, parameter, value, dimension->unit);
-    if (!check.faults().empty()) {
-      section.refuse(key.name, check.faults().front().permitted);
+  /// Of a section whose kind is not known: refuses the values that no kind takes.
+  void check_keys_of_any_kind(SectionReader& section, const std::string& name) {
+    std::map<std::string, std::string> reasons;  // why the keys are unfit, "" if they are not
+    for (const auto& [of_kind, kind] : drives_of_kinds(drive(), name)) {
+      for (const Parameter& parameter : all_parameters_of_drives()) {
+        if (!exists(parameter, of_kind)) continue;
+        for (const Key& key : keys_of(parameter, name)) {
+          if (!section.has(key.name)) continue;
+          const auto [reason, is_new] = reasons.try_emplace(key.name);
+          if (!is_new && reason->second.empty()) continue;
+          const std::string why = why_unfit(name, parameter, key, of_kind);
+          if (is_new || why.empty()) reason->second = why;
+        }
+      }
+    }
+    for (const auto& [key, reason] : reasons) {
+      if (!reason.empty()) section.refuse(key, reason);
     }
   }
 
@@ -451,7 +484,7 @@ class DriveReader {
 
   void check_tolerances() {
     for (ParameterTolerance& tolerance : file_.tolerances) {
-      tolerance.path = std::string(find_parameter(tolerance.path)->path);
+      tolerance.path = std::string(find_parameter(tolerance.path, drive())->path);
     }
     // "gearbox.backlash.min" is located at "gearbox.backlash".
     const auto name_of = [&](const std::string& field) {

@@ -31,6 +31,19 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
   return row.back();
 }
 
+/// A number without unit: a TOML number, or text (a fraction).
+double exact_number(const std::string& field, const toml::node& value,
+                    double (*read_text)(std::string_view, std::string_view) = read_number) {
+  if (const auto* integer = value.as_integer()) return static_cast<double>(integer->get());
+  if (const auto* floating = value.as_floating_point()) {
+    return floating->get() + 0.0;  // no negative zero
+  }
+  if (const auto* text = value.as_string()) return read_text(field, text->get());
+  refuse(field, "", "must be a number without unit, such as 0.25 or \"1/9\"");
+}
+
+}  // namespace
+
 std::optional<std::string> nearest(const std::vector<std::string>& known,
                                    std::string_view written) {
   constexpr std::size_t longest_worth_a_guess = 40;
@@ -49,19 +62,6 @@ std::optional<std::string> nearest(const std::vector<std::string>& known,
   }
   return best;
 }
-
-/// A number without unit: a TOML number, or text (a fraction).
-double exact_number(const std::string& field, const toml::node& value,
-                    double (*read_text)(std::string_view, std::string_view) = read_number) {
-  if (const auto* integer = value.as_integer()) return static_cast<double>(integer->get());
-  if (const auto* floating = value.as_floating_point()) {
-    return floating->get() + 0.0;  // no negative zero
-  }
-  if (const auto* text = value.as_string()) return read_text(field, text->get());
-  refuse(field, "", "must be a number without unit, such as 0.25 or \"1/9\"");
-}
-
-}  // namespace
 
 std::string one_of(const std::vector<std::string>& known, std::string_view written) {
   return "must be one of " + listed(known) + guess_of(known, written);
@@ -131,10 +131,10 @@ SectionReader::SectionReader(const TomlDocument& document, Findings& findings, s
   }
 }
 
-Measured SectionReader::quantity(const std::string& key, const Dimension& expected) {
-  const toml::node* value = require(
-      key, "must be " + std::string(expected.name) + ", such as " + std::string(expected.unit));
-  return value != nullptr ? read(key, *value, expected) : Measured{.si = placeholder_quantity};
+Measured SectionReader::quantity(const std::string& key, const Dimension& expected, double factor) {
+  const toml::node* value = require(key, "must be " + described(expected));
+  return value != nullptr ? read(key, *value, expected, factor)
+                          : Measured{.si = placeholder_quantity};
 }
 
 double SectionReader::number(const std::string& key, const std::string& permitted,
@@ -226,6 +226,12 @@ std::vector<std::vector<double>> SectionReader::rows(const std::string& key,
                    });
 }
 
+bool SectionReader::has_tolerance(const std::string& key) const {
+  return tolerances_ != nullptr && any_of(*tolerances_, [&](const ParameterTolerance& one) {
+           return one.path == field(key);
+         });
+}
+
 void SectionReader::refuse(const std::string& key, const std::string& permitted) {
   if (const toml::node* value = find(key)) findings_.refuse(field(key), *value, permitted);
 }
@@ -238,10 +244,11 @@ void SectionReader::refuse_word(const std::string& key, std::string_view word,
 
 bool SectionReader::is_of(const std::string& key, const Dimension& dimension) {
   const toml::node* value = table_ != nullptr ? table_->get(key) : nullptr;
-  const auto text = value != nullptr ? value->value_exact<std::string>() : std::nullopt;
-  if (!text) return false;
+  if (value == nullptr) return false;
   try {
-    read_quantity(key, *text, dimension);
+    read_toleranced(key, *value, [&](const std::string& name, const toml::node& node) {
+      return read_quantity(name, node.value_exact<std::string>().value_or(""), dimension);
+    });
     return true;
   } catch (const InvalidInput&) {
     return false;
@@ -249,11 +256,17 @@ bool SectionReader::is_of(const std::string& key, const Dimension& dimension) {
 }
 
 void SectionReader::refuse_other_keys() {
+  refuse_other_keys([&](const std::string& key, const std::vector<std::string>& known) {
+    return "is not a key of [" + name_ + "]: " + one_of(known, key);
+  });
+}
+
+void SectionReader::refuse_other_keys(const Reason& reason) {
   if (table_ == nullptr) return;
   for (const auto& [key, value] : *table_) {
     if (contains(known_, key.str())) continue;
     findings_.refuse(key.source().begin, field(shown(key.str())), document_.written(value),
-                     "is not a key of [" + name_ + "]: " + one_of(known_, key.str()));
+                     reason(std::string(key.str()), known_));
   }
 }
 
@@ -277,8 +290,8 @@ const toml::node* SectionReader::require(const std::string& key, const std::stri
 }
 
 Measured SectionReader::read(const std::string& key, const toml::node& value,
-                             const Dimension& expected) {
-  const auto read_exact = [&](const std::string& name, const toml::node& node) -> Measured {
+                             const Dimension& expected, double factor) {
+  const auto read_plain = [&](const std::string& name, const toml::node& node) -> Measured {
     const bool is_zero = node.is_number() && exact_number(name, node) == 0.0;  // in every unit
     if (is_zero || (bare_numbers_ && node.is_number())) {
       return {.si = exact_number(name, node), .unit = std::string(expected.unit)};
@@ -287,9 +300,14 @@ Measured SectionReader::read(const std::string& key, const toml::node& value,
     const std::optional<double> number = text ? bare_number(*text) : std::nullopt;
     if (bare_numbers_ && number) return {.si = *number, .unit = std::string(expected.unit)};
     if (text) return read_quantity(name, *text, expected);
-    gearlash::refuse(name, "",
-                     "must be a text with a number and a unit of " + std::string(expected.name) +
-                         ", such as \"1 " + std::string(expected.unit) + "\"");
+    gearlash::refuse(
+        name, "",
+        "must be " + with_unit(expected) + " as text: \"" + std::string(expected.example) + "\"");
+  };
+  const auto read_exact = [&](const std::string& name, const toml::node& node) {
+    Measured measured = read_plain(name, node);
+    measured.si *= factor;
+    return measured;
   };
   return read(key, value, read_exact, placeholder_quantity);
 }

@@ -42,6 +42,8 @@ class Findings {
       });
 
   bool none() const { return found_.empty(); }
+  /// What the first finding permits; "" if there is none.
+  std::string first() const { return none() ? "" : found_.front().fault.permitted; }
   /// Throws InvalidInput with all findings in the order of the file.
   void require_none();
 
@@ -74,13 +76,16 @@ class SectionReader {
     tolerances_ = &tolerances;
   }
 
+  /// Whether collect_tolerances() was called and the number of this key was read with a tolerance.
+  bool has_tolerance(const std::string& key) const;
+
   /// Accepts a key of this section without reading it.
   void know(const std::string& key);
   /// Whether the key holds a quantity of that dimension.
   bool is_of(const std::string& key, const Dimension& dimension);
 
-  /// A number with its unit, given as text.
-  Measured quantity(const std::string& key, const Dimension& expected);
+  /// A number with its unit, given as text, times the factor.
+  Measured quantity(const std::string& key, const Dimension& expected, double factor = 1.0);
   /// A number without unit: a TOML number, or text (a fraction). `permitted` describes the number
   /// in the fault of a missing key.
   double number(const std::string& key, const std::string& permitted,
@@ -107,6 +112,10 @@ class SectionReader {
 
   /// Records a fault for every key that has not been read.
   void refuse_other_keys();
+  using Reason =
+      std::function<std::string(const std::string& key, const std::vector<std::string>& known)>;
+  /// The same, with the reason that is given for it.
+  void refuse_other_keys(const Reason& reason);
 
   bool has(const std::string& key) const { return table_ != nullptr && table_->contains(key); }
   /// The section's header, or the beginning of the file.
@@ -115,7 +124,8 @@ class SectionReader {
  private:
   const toml::node* find(const std::string& key);
   const toml::node* require(const std::string& key, const std::string& permitted);
-  Measured read(const std::string& key, const toml::node& value, const Dimension& expected);
+  Measured read(const std::string& key, const toml::node& value, const Dimension& expected,
+                double factor);
   double read(const std::string& key, const toml::node& value, NumberText read_text);
   /// What `read` makes of each element, "name[0]", "name[1]", …
   template <class Read>
@@ -135,6 +145,9 @@ class SectionReader {
   const toml::table* table_ = nullptr;
   std::vector<std::string> known_;
 };
+
+/// The known name that is nearest to the written one; none if none is near.
+std::optional<std::string> nearest(const std::vector<std::string>& known, std::string_view written);
 
 /// " (did you mean b?)", or "" if no known name is near.
 std::string guess_of(const std::vector<std::string>& known, std::string_view written);

@@ -33,8 +33,14 @@ Fraction fraction_in(std::string_view text) {
   return {trimmed(text.substr(0, bar)), trimmed(text.substr(bar + 1)), true};
 }
 
-std::string expectation(const Dimension& expected) {
-  return std::string(expected.name) + ", such as " + std::string(expected.unit);
+/// "an angle".
+std::string with_article(const Dimension& dimension) {
+  const std::string name(dimension.name);
+  return (std::string_view("aeiou").find(name[0]) == std::string::npos ? "a " : "an ") + name;
+}
+
+std::string such_as(const Dimension& dimension) {
+  return ", such as " + std::string(dimension.example);
 }
 
 bool same_but_for_angle(const UnitPowers& powers, const Dimension& expected) {
@@ -68,7 +74,8 @@ std::string advice(std::string_view unit, const UnitPowers& powers, const Dimens
   if (divisor != std::string_view::npos && unit[divisor] >= '0' && unit[divisor] <= '9') {
     return "; x/1000 rpm is (x/1000) rpm, write x/(1000 rpm)";
   }
-  if (slash != std::string_view::npos && unit.find('/', slash + 1) != std::string_view::npos) {
+  const bool has_two = slash != std::string_view::npos && unit.find('/', slash + 1) != unit.npos;
+  if (has_two && unit.find('(') == unit.npos) {
     return "; x/rad/s is x/(rad s), write x/(rad/s)";
   }
   if (!same_but_for_angle(powers, expected)) return "";
@@ -79,11 +86,11 @@ std::string advice(std::string_view unit, const UnitPowers& powers, const Dimens
 void require_dimension(std::string_view field, std::string_view text, std::string_view name,
                        const Unit& unit, const Dimension& expected) {
   if (!same_but_for_angle(unit.powers, expected) || !angle_fits(unit.powers, expected)) {
-    refuse(field, text, "must be " + expectation(expected) + advice(name, unit.powers, expected));
+    refuse(field, text, "must be " + described(expected) + advice(name, unit.powers, expected));
   }
   if (unit.powers.radian != expected.radian && unit.counts_minutes) {
     refuse(field, text,
-           "must be " + expectation(expected) +
+           "must be " + described(expected) +
                "; per minute may mean rad or turns, write rpm, rev/min or rad/min");
   }
 }
@@ -135,7 +142,21 @@ double not_down_to_one(double value, std::string_view text, int power) {
   return is_larger ? std::nextafter(1.0, 2.0) : 1.0;
 }
 
+/// "/min", as in "1000/min"; "/2 rad" is half of a fraction.
+bool is_reciprocal(std::string_view unit) {
+  const std::string_view rest = unit.starts_with('/') ? trimmed(unit.substr(1)) : "";
+  return !rest.empty() && !(rest[0] >= '0' && rest[0] <= '9');
+}
+
 }  // namespace
+
+std::string with_unit(const Dimension& dimension) {
+  return with_article(dimension) + " with its unit";
+}
+
+std::string described(const Dimension& dimension) {
+  return with_article(dimension) + such_as(dimension);
+}
 
 Measured read_quantity(std::string_view field, std::string_view text, const Dimension& expected) {
   const std::string_view trimmed_text = trimmed(text);
@@ -145,13 +166,16 @@ Measured read_quantity(std::string_view field, std::string_view text, const Dime
     return {.si = 0.0, .unit = std::string(expected.unit)};  // in every unit
   }
   if (length == 0 || name.empty()) {
-    refuse(field, text, "must be a number and a unit of " + expectation(expected));
+    const bool is_limit = trimmed_text.starts_with('<') || trimmed_text.starts_with("≤");
+    refuse(field, text,
+           "must be " + with_unit(expected) + such_as(expected) +
+               (is_limit ? "; a limit is a range, { min = \"…\", max = \"…\" }" : ""));
   }
   if (name.starts_with(',')) {
-    refuse(field, text, "must be " + expectation(expected) + "; the decimal sign is a point");
+    refuse(field, text, "must be " + described(expected) + "; the decimal sign is a point");
   }
   try {
-    const Unit unit = read_unit(name);
+    const Unit unit = read_unit(is_reciprocal(name) ? "1" + std::string(name) : std::string(name));
     require_dimension(field, text, name, unit, expected);
     const double number = *decimal(trimmed_text.substr(0, length));
     const double value = number * unit.factor;
@@ -162,7 +186,7 @@ Measured read_quantity(std::string_view field, std::string_view text, const Dime
     // No negative zero: the ratio of two inertias must not be −infinity.
     return {.si = value + 0.0, .unit_in_si = unit.factor, .unit = std::string(name)};
   } catch (const NotAUnit& problem) {
-    refuse(field, text, "must be " + expectation(expected) + "; " + problem.what());
+    refuse(field, text, "must be " + described(expected) + "; " + problem.what());
   }
 }
 

@@ -32,6 +32,11 @@ struct Measured {
 /// value that no double represents.
 Measured read_quantity(std::string_view field, std::string_view text, const Dimension& expected);
 
+/// "an angle with its unit".
+std::string with_unit(const Dimension& dimension);
+/// "an angle, such as 12 arcmin".
+std::string described(const Dimension& dimension);
+
 /// read_quantity(…).si
 double to_si(std::string_view field, std::string_view text, const Dimension& expected);
 

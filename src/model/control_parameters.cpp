@@ -38,24 +38,31 @@ template <auto encoder>
 constexpr Place encoder_resolution =
     in_encoder<encoder, &Encoder::resolution, &Encoder::counts_per_turn>;
 
+constexpr OtherForm in_bits(std::string_view path) { return {path, Relation::power_of_two}; }
+/// Both edges of two channels are counted.
+constexpr OtherForm in_lines(std::string_view path) {
+  return {path, Relation::multiple, nullptr, 4.0};
+}
+
 std::vector<Parameter> sensor_parameters() {
-  return {entry("sensor.position", choice_by<position_shaft, choose_position_shaft>,
-                "shaft with the position sensor; both: position of the load, speed of the motor",
-                Words{"load", "motor", "both"}, OtherForm{"loop.sensor"}),
-          entry("sensor.speed", choice_by<speed_shaft, choose_speed_shaft>,
-                "shaft of the speed feedback", Words{"load", "motor"}),
-          entry("sensor.counts_per_turn", encoder_counts<&Sensor::encoder>,
-                "counts of the encoder per turn of its own shaft; none: exact", positive,
-                UsualRange{100.0, 1e7}),
-          entry("sensor.resolution", encoder_resolution<&Sensor::encoder>,
-                "angle of one count of the encoder, at its own shaft; none: exact", unit<angle>,
-                not_negative, UsualRange{1e-7, 0.1}),
-          entry("sensor.speed_counts_per_turn", encoder_counts<&Sensor::speed_encoder>,
-                "counts per turn of the encoder that gives the speed by differences", positive,
-                UsualRange{100.0, 1e7}),
-          entry("sensor.speed_resolution", encoder_resolution<&Sensor::speed_encoder>,
-                "angle of one count of the encoder that gives the speed by differences",
-                unit<angle>, not_negative, UsualRange{1e-7, 0.1})};
+  return {
+      entry("sensor.position", choice_by<position_shaft, choose_position_shaft>,
+            "shaft with the position sensor; both: position of the load, speed of the motor",
+            Words{"load", "motor", "both"}, OtherForm{"loop.sensor"}),
+      entry("sensor.speed", choice_by<speed_shaft, choose_speed_shaft>,
+            "shaft of the speed feedback", Words{"load", "motor"}),
+      entry("sensor.counts_per_turn", encoder_counts<&Sensor::encoder>,
+            "counts of the encoder per turn of its own shaft; none: exact", positive,
+            in_bits("sensor.bits"), in_lines("sensor.lines"), UsualRange{100.0, 1e7}),
+      entry("sensor.resolution", encoder_resolution<&Sensor::encoder>,
+            "angle of one count of the encoder, at its own shaft; none: exact", unit<angle>,
+            not_negative, UsualRange{1e-7, 0.1}),
+      entry("sensor.speed_counts_per_turn", encoder_counts<&Sensor::speed_encoder>,
+            "counts per turn of the encoder that gives the speed by differences", positive,
+            in_bits("sensor.speed_bits"), in_lines("sensor.speed_lines"), UsualRange{100.0, 1e7}),
+      entry("sensor.speed_resolution", encoder_resolution<&Sensor::speed_encoder>,
+            "angle of one count of the encoder that gives the speed by differences", unit<angle>,
+            not_negative, UsualRange{1e-7, 0.1})};
 }
 
 // ---- kinds of controllers -----------------------------------------------------------------------
@@ -143,20 +150,32 @@ constexpr Place in_integral = only_if<has_terms<PIDTerms::PI>, in_law<member>>;
 template <auto member>
 constexpr Place in_derivative = only_if<has_terms<PIDTerms::PD>, in_law<member>>;
 
+/// Of a gain: gain/time is that of the integral.
+constexpr OtherForm integral_time(std::string_view path, std::string_view gain) {
+  return {path, Relation::reciprocal, &dimensions::time, 1.0, gain};
+}
+constexpr OtherForm derivative_time(std::string_view path) {
+  return {path, Relation::multiple, &dimensions::time, 1.0, "controller.proportional"};
+}
+
 std::vector<Parameter> law_parameters() {
   return {
       entry("controller.proportional", in_law<&PID::proportional>,
             "proportional gain, output per error", gain, required, OtherForm{"loop.error_gain"},
-            OtherForm{"controller.kp"}, OtherForm{"actuator.kp"}, UsualRange{1e-3, 1e4}),
+            OtherForm{"controller.kp"}, OtherForm{"controller.Kp"}, OtherForm{"actuator.kp"},
+            UsualRange{1e-3, 1e4}),
       entry("controller.integral", in_integral<&PID::integral>, "output per integral of the error",
-            integral_gain, required, OtherForm{"controller.ki"}, UsualRange{1e-3, 1e5}),
+            integral_gain, required, OtherForm{"controller.ki"}, OtherForm{"controller.Ki"},
+            integral_time("controller.Tn", "controller.proportional"),
+            integral_time("controller.Ti", "controller.proportional"), UsualRange{1e-3, 1e5}),
       entry("controller.tracking_time",
             first_of<in_integral<&PID::tracking_time>, in_law<&CascadeController::tracking_time>>,
             "anti-windup by back-calculation: its time constant; 0: none", unit<time>, not_negative,
             UsualRange{1e-3, 10.0}),
       entry("controller.derivative", in_derivative<&PID::derivative>,
             "output per rate of the error", speed_gain, required, OtherForm{"controller.kd"},
-            OtherForm{"actuator.kv"}, UsualRange{1e-4, 1e3}),
+            OtherForm{"controller.Kd"}, OtherForm{"actuator.kv"}, derivative_time("controller.Tv"),
+            derivative_time("controller.Td"), UsualRange{1e-4, 1e3}),
       entry("controller.filter",
             first_of<in_derivative<&PID::filter>, in_law<&CascadeController::filter>>,
             "time constant of the filter of the derivative, or of a cascade's measured "
@@ -166,11 +185,15 @@ std::vector<Parameter> law_parameters() {
             "input of the derivative: the error, or the measured speed", Words{"error", "speed"}),
 
       entry("controller.position", in_law<&CascadeController::position>,
-            "commanded speed per position error", unit<rate>, required, UsualRange{0.1, 1000.0}),
+            "commanded speed per position error", unit<rate>, required, OtherForm{"controller.Kv"},
+            OtherForm{"controller.kv"}, UsualRange{0.1, 1000.0}),
       entry("controller.speed", in_law<&CascadeController::speed>, "output per speed error",
-            speed_gain, required, UsualRange{1e-4, 1e3}),
+            speed_gain, required, OtherForm{"controller.Kp"}, OtherForm{"controller.kp"},
+            UsualRange{1e-4, 1e3}),
       entry("controller.speed_integral", in_law<&CascadeController::speed_integral>,
-            "output per integral of the speed error", gain, UsualRange{1e-3, 1e4}),
+            "output per integral of the speed error", gain, OtherForm{"controller.Ki"},
+            OtherForm{"controller.ki"}, integral_time("controller.Tn", "controller.speed"),
+            integral_time("controller.Ti", "controller.speed"), UsualRange{1e-3, 1e4}),
       entry("controller.gain",
             first_of<in_law<&LeadLagController::gain>, in_law<&TransferFunctionController::gain>,
                      in_law<&StateSpaceController::gain>>,
@@ -227,9 +250,9 @@ std::vector<Parameter> feedback_and_sampling() {
             not_negative, OtherForm{"loop.motor_speed_feedback"}, UsualRange{1e-4, 10.0}),
       entry("sampling.period", in_sampling<&Sampling::period>, "time between two samples",
             unit<time>, positive, required,
-            OtherForm{"sampling.frequency", &angular_frequency, turn},
-            OtherForm{"sampling.rate", &angular_frequency, turn}, OtherForm{"actuator.timestep"},
-            UsualRange{1e-5, 0.1}),
+            OtherForm{"sampling.frequency", Relation::reciprocal, &angular_frequency, turn},
+            OtherForm{"sampling.rate", Relation::reciprocal, &angular_frequency, turn},
+            OtherForm{"actuator.timestep"}, UsualRange{1e-5, 0.1}),
       entry("sampling.delay", in_sampling<&Sampling::delay>, "time from reading to output",
             unit<time>, not_negative, UsualRange{1e-6, 0.1}),
       entry("sampling.method", in_sampling<&Sampling::method>,

@@ -31,9 +31,10 @@ std::vector<Parameter> signal_parameters();      ///< reference, load_torque,
 /// defaults, and its sampling where the manual states it and the drive has none.
 void take_firmware(Drive& drive, std::size_t index);
 
-/// Gives a variant the alternative of that index, with its defaults.
+/// Gives a variant the alternative of that index, with its defaults if it has another one.
 template <class... Alternatives>
 void become(std::variant<Alternatives...>& variant, std::size_t index) {
+  if (variant.index() == index) return;
   const std::variant<Alternatives...> all[] = {Alternatives{}...};
   variant = all[index];
 }

@@ -138,7 +138,7 @@ double get(const Drive& of, std::string_view path) {
   if (const double* place = number_place(slot, indexed, path)) value = *place;
   if (!value) refuse(path, "must be a number that this drive has");
   const OtherForm* form = form_named(parameter, indexed.path);
-  return form != nullptr && form->dimension != nullptr ? form->inverse / *value : *value;
+  return form != nullptr ? number_of_form(*form, *value, drive) : *value;
 }
 
 void set(Drive& drive, std::string_view path, double value) {
@@ -146,7 +146,7 @@ void set(Drive& drive, std::string_view path, double value) {
   const Parameter& parameter = parameter_of(drive, path);
   const IndexedPath indexed = without_indices(path);
   const OtherForm* form = form_named(parameter, indexed.path);
-  if (form != nullptr && form->dimension != nullptr) value = form->inverse / value;
+  if (form != nullptr) value = value_of_form(*form, value, drive);
   const Slot slot = parameter.slot(drive);
   if (double* place = number_place(slot, indexed, path)) {
     *place = value;

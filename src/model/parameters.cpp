@@ -1,5 +1,6 @@
 #include "model/parameters.hpp"
 
+#include <cmath>
 #include <iterator>
 #include <unordered_map>
 
@@ -39,13 +40,55 @@ const Parameter* find_parameter(std::string_view path) {
   return found == by_name.end() ? nullptr : found->second;
 }
 
+bool has_name(const Parameter& parameter, std::string_view path) {
+  return parameter.path == path ||
+         any_of(parameter.other_forms, [&](const OtherForm& form) { return form.path == path; });
+}
+
 const Parameter* find_parameter(std::string_view path, const Drive& drive) {
   const Parameter* first = find_parameter(path);
   if (first == nullptr || exists(*first, drive)) return first;
-  for (const Parameter& parameter : all_parameters_of_drives()) {
-    if (parameter.path == first->path && exists(parameter, drive)) return &parameter;
+  return first_of(all_parameters_of_drives(), [&](const Parameter& parameter) {
+    return (has_name(parameter, path) || parameter.path == first->path) && exists(parameter, drive);
+  });
+}
+
+namespace {
+
+double basis_of(const OtherForm& form, const Drive& drive) {
+  if (form.of.empty()) return form.factor;
+  const Parameter* other = find_parameter(form.of, drive);
+  return form.factor * (other == nullptr ? 1.0 : number_in(*other, drive).value_or(1.0));
+}
+
+}  // namespace
+
+double value_of_form(const OtherForm& form, double number, const Drive& drive) {
+  switch (form.relation) {
+    case Relation::multiple:
+      return basis_of(form, drive) * number;
+    case Relation::reciprocal:
+      return basis_of(form, drive) / number;
+    case Relation::power_of_two:
+      return std::exp2(number);
+    case Relation::same:
+      break;
   }
-  return nullptr;
+  return number;
+}
+
+double number_of_form(const OtherForm& form, double value, const Drive& drive) {
+  switch (form.relation) {
+    case Relation::multiple:
+      return value / basis_of(form, drive);
+    case Relation::reciprocal:
+      return basis_of(form, drive) / value;
+    case Relation::power_of_two:
+      return std::log2(value);
+    case Relation::same:
+      break;
+  }
+  return value;
 }
 
 const std::vector<Section>& all_sections() {

@@ -39,13 +39,29 @@ enum class Permitted : unsigned char {
   of_normal_form
 };
 
+/// How the number of another form gives a parameter.
+enum class Relation : unsigned char {
+  same,          ///< it is the parameter
+  multiple,      ///< parameter = basis · number
+  reciprocal,    ///< parameter = basis/number
+  power_of_two,  ///< parameter = 2^number
+};
+
 /// Another form of a parameter.
 struct OtherForm {
   std::string_view path;  ///< "controller.kp"
-  /// If this form is the reciprocal, its dimension: parameter = inverse/number.
+  Relation relation = Relation::same;
+  /// Of the number, unless it is the parameter; nullptr if it has no unit.
   const Dimension* dimension = nullptr;
-  double inverse = 1.0;
+  double factor = 1.0;
+  /// The basis is the factor, or that times the drive's number of this path: "controller.speed".
+  std::string_view of{};
 };
+
+/// The parameter, from the number of another form of it.
+double value_of_form(const OtherForm& form, double number, const Drive& drive);
+/// The number of another form, from the parameter.
+double number_of_form(const OtherForm& form, double value, const Drive& drive);
 
 /// Another word for one of a parameter's choices.
 struct OtherWord {
@@ -94,10 +110,14 @@ struct Parameter {
 /// All parameters, section by section in the order of files. A choice stands before its dependents.
 const std::vector<Parameter>& all_parameters_of_drives();
 
-/// The parameter of that path or of one of its other forms; nullptr if there is none.
+/// Whether the path is the parameter's own or that of one of its other forms.
+bool has_name(const Parameter& parameter, std::string_view path);
+
+/// The first parameter of that name; nullptr if there is none.
 const Parameter* find_parameter(std::string_view path);
 
-/// The parameter of that name which the drive has; nullptr if it has none.
+/// The parameter of that name, its own or another form's, which the drive has; nullptr if it has
+/// none.
 const Parameter* find_parameter(std::string_view path, const Drive& drive);
 
 /// A section of a file.

@@ -37,7 +37,7 @@ std::vector<Fault> faults_of_value(const Axis& axis, const Parameter& parameter,
     return check.within(parameter.path, value, 0.0, last).faults();
   }
   const OtherForm* form = form_named(parameter, axis.path);
-  if (form != nullptr && form->dimension != nullptr) value = form->inverse / value;
+  if (form != nullptr) value = value_of_form(*form, value, Drive{});  // of the right sign
   if (const NormalFormNumber* number = normal_form_number(parameter.path)) {
     NormalizedServo servo{.damping = 0.5};
     servo.*number->member = value;
@@ -271,8 +271,8 @@ std::string unit_of(const Axis& axis, const Drive& drive) {
   const Parameter* parameter = parameter_of(axis, drive);
   if (parameter == nullptr || is_word(*parameter)) return "";
   const OtherForm* form = form_named(*parameter, axis.path);
-  const bool is_inverse = form != nullptr && form->dimension != nullptr;
-  const Dimension* dimension = is_inverse ? form->dimension : parameter->dimension(drive);
+  const bool is_other = form != nullptr && form->relation != Relation::same;
+  const Dimension* dimension = is_other ? form->dimension : parameter->dimension(drive);
   const bool is_bare = dimension == nullptr || axis.path.find('[') != std::string::npos;
   return is_bare ? "1" : std::string(dimension->unit);
 }

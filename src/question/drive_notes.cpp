@@ -36,6 +36,20 @@ std::string text_on_firmware(const Drive& drive) {
          "). Not modelled: " + std::string(facts.left_out) + ".";
 }
 
+/// What two ratios make of a turn of the load; empty if neither has an effect.
+std::string text_on_counted_turns(const Drive& drive) {
+  const auto* moteus = std::get_if<Moteus>(&*drive.controller.firmware);
+  const double ratio = drive.gearbox.ratio;
+  if (moteus == nullptr || (ratio == 1.0 && moteus->rotor_to_output_ratio == 1.0)) return "";
+  const std::string product = text_of(ratio * moteus->rotor_to_output_ratio);
+  const bool is_on_load = drive.sensor.position != SensorPlace::motor;
+  return "One turn of the load is " + (is_on_load ? "1" : product) +
+         " of those that moteus counts, and a torque of 1 N m in its registers is " + product +
+         " N m at the load: gearbox.ratio " + text_of(ratio) +
+         ", which is the gear, times rotor_to_output_ratio " +
+         text_of(moteus->rotor_to_output_ratio) + ", which is what moteus knows of it.";
+}
+
 }  // namespace
 
 std::vector<Note> notes_on(const SoundDrive& sound) {
@@ -64,7 +78,11 @@ std::vector<Note> notes_on(const SoundDrive& sound) {
          "The encoder is assumed on the load; sensor.position = \"motor\" puts it on the "
          "motor."});
   }
-  if (drive.controller.firmware) notes.push_back({"firmware", text_on_firmware(drive)});
+  if (drive.controller.firmware) {
+    notes.push_back({"firmware", text_on_firmware(drive)});
+    const std::string turns = text_on_counted_turns(drive);
+    if (!turns.empty()) notes.push_back({"counted-turns", turns});
+  }
   if (motor.no_load_current && takes_no_load_current(motor)) {
     notes.push_back({"no-load-current", "The motor's dry friction is " +
                                             text_of(coulomb_torque(motor)) +

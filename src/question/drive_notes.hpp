@@ -8,7 +8,8 @@
 
 namespace gearlash {
 
-/// Codes: "assumed-encoder" (where it is taken to be), "firmware" (the gains that its registers
+/// Codes: "assumed-encoder" (where it is taken to be), "counted-turns" (of moteus, whose ratio
+/// multiplies that of the gearbox), "firmware" (the gains that its registers
 /// mean), "no-load-current" (the dry friction that it gives), "efficiency" (left out), "gravity"
 /// (its torque and stiffness where the reference ends).
 std::vector<Note> notes_on(const SoundDrive& sound);

@@ -65,6 +65,29 @@ TEST(BadInput, WithTheSensorOnTheMotorThereIsNoNormalForm) {
               ElementsAre("gearlash: --sensor = gear: must be one of load, motor, both"));
 }
 
+TEST(BadInput, ABacklashOfADataSheetHasItsUnit) {
+  const std::string sheet = "examples/elinco-fd162.toml";
+  EXPECT_THAT(faults({"limit-cycle", sheet, "--backlash", "5"}),
+              ElementsAre("gearlash: --backlash = 5: must be an angle with its unit, such as 12 "
+                          "arcmin"));
+  EXPECT_EQ(run_tool({"limit-cycle", sheet, "--backlash", "5 arcmin"}).status, 0);
+  EXPECT_EQ(run_tool({"limit-cycle", "--damping", "0.2", "--inertia-ratio", "1", "--friction-ratio",
+                      "0.5", "--backlash", "0.1"})
+                .status,
+            0);
+}
+
+TEST(BadInput, AnOptionAndASettingThatContradictEachOtherAreNamed) {
+  EXPECT_THAT(faults({"limit-cycle", "examples/elinco-fd162.toml", "--backlash", "5 arcmin",
+                      "--set", "gearbox.backlash=3 arcmin"}),
+              ElementsAre("gearlash: --backlash = 5 arcmin: must not stand beside --set "
+                          "gearbox.backlash=3 arcmin: give one of them"));
+  EXPECT_THAT(faults({"limit-cycle", "--damping", "0.2", "--inertia-ratio", "1", "--friction-ratio",
+                      "0.5", "--backlash", "0.1", "--set", "servo.backlash=0.2"}),
+              ElementsAre("gearlash: --backlash = 0.1: must not stand beside --set "
+                          "servo.backlash=0.2: give one of them"));
+}
+
 TEST(BadInput, FaultsOfTheFileCarryItsPlaceAndStandBesideThoseOfOptions) {
   const Scratch scratch;
   const std::string path = (scratch / "servo.toml").string();

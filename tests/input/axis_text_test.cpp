@@ -84,7 +84,7 @@ TEST(EdgeAxisText, FaultsOfPathsAndWordsSaySo) {
             "--x = moon: must be one of load, motor, both (did you mean motor?)");
   EXPECT_THAT(fault_of("sensor.position=0:1:2"), testing::HasSubstr("must be PATH=FROM:TO:COUNT"));
   EXPECT_THAT(fault_of("gearbox.backlash=1 kg,2 kg"),
-              testing::StartsWith("--x = 1 kg: must be angle"));
+              testing::StartsWith("--x = 1 kg: must be an angle"));
   EXPECT_EQ(fault_of("gearbox.ratio=0,2"), "--x = 0: gearbox.ratio must be positive and finite");
 }
 

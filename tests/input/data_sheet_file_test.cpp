@@ -150,10 +150,9 @@ TEST(ServoFile, ByteOrderMarkAndLineEndingsChangeNothing) {
     crlf += c == '\n' ? std::string("\r\n") : std::string(1, c);
   EXPECT_EQ(parse_servo(crlf, "s.toml"), expected);
   EXPECT_EQ(parse_servo("\xEF\xBB\xBF" + crlf, "s.toml"), expected);
-  EXPECT_THAT(
-      refusals("\xEF\xBB\xBF" + replaced(crlf, "\"282 ohm\"", "282")),
-      ElementsAre("s.toml:7:14: motor.resistance = 282: must be a text with a number and a unit "
-                  "of electrical resistance, such as \"1 ohm\""));
+  EXPECT_THAT(refusals("\xEF\xBB\xBF" + replaced(crlf, "\"282 ohm\"", "282")),
+              ElementsAre("s.toml:7:14: motor.resistance = 282: must be an electrical resistance "
+                          "with its unit as text: \"2.8 ohm\""));
 }
 
 TEST(ServoFile, TheExampleIsTheSampleProblem) {
@@ -236,31 +235,30 @@ restitution = 1.5
 )toml"),
       ElementsAre(
           "s.toml:1:2: moter = [moter]: is not a section: must be one of servo, motor, gearbox, "
-          "load, contact, sensor, controller, sampling, reference, load_torque, specification, loop, joint, "
-          "actuator (did you mean "
-          "motor?)",
-          "s.toml:2:1: motor.back_emf_constant is missing: must be voltage per angular "
-          "speed, such as V s/rad",
+          "load, contact, sensor, controller, sampling, reference, load_torque, specification, "
+          "loop, joint, actuator (did you mean motor?)",
+          "s.toml:2:1: motor.back_emf_constant is missing: must be a voltage per angular speed, "
+          "such as 3.67 mV/rpm",
           "s.toml:4:1: motor.inertai = 3 kg m2: is not a key of [motor]: must be one of kind, "
           "inertia, friction, torque_constant, back_emf_constant, speed_constant, resistance, "
           "inductance, coulomb, no_load_current, breakaway, stribeck_speed, voltage_limit, "
           "current_limit (did you "
           "mean inertia?)",
           "s.toml:5:11: motor.inertia = -0.61 oz in2: must be zero or positive, and finite",
-          "s.toml:6:12: motor.friction = 3: must be a text with a number and a unit of torque "
-          "per angular speed, such as \"1 N m s/rad\"",
-          "s.toml:7:19: motor.torque_constant = 28.2 oz in/A: must be torque per current, "
-          "such as N m/A; oz, lb, g and kg are masses, the forces are ozf, lbf, gf and kgf",
-          "s.toml:8:14: motor.resistance = 282 volts: must be electrical resistance, such "
-          "as ohm",
+          "s.toml:6:12: motor.friction = 3: must be a torque per angular speed with its unit as "
+          "text: \"0.05 N m s/rad\"",
+          "s.toml:7:19: motor.torque_constant = 28.2 oz in/A: must be a torque per current, such "
+          "as 0.35 N m/A; oz, lb, g and kg are masses, the forces are ozf, lbf, gf and kgf",
+          "s.toml:8:14: motor.resistance = 282 volts: must be an electrical resistance, such as "
+          "2.8 ohm",
           "s.toml:10:9: gearbox.ratio = nan: must be positive and finite",
-          "s.toml:11:12: gearbox.backlash = [\"a\", 1, …: must be a text with a number and a "
-          "unit of angle, such as \"1 rad\"",
-          "s.toml:14:11: load.inertia = \\x07\\n16.4e-6 slug ft2: must be a number and a "
-          "unit of moment of inertia, such as kg m2",
-          "s.toml:15:12: load.friction = 0.002: must be a number and a unit of torque per "
-          "angular speed, such as N m s/rad",
-          "s.toml:17:14: loop.error_gain = 10 V: must be voltage per angle, such as V/rad; "
+          "s.toml:11:12: gearbox.backlash = [\"a\", 1, …: must be an angle with its unit as text: "
+          "\"12 arcmin\"",
+          "s.toml:14:11: load.inertia = \\x07\\n16.4e-6 slug ft2: must be a moment of inertia with "
+          "its unit, such as 0.3 kg cm2",
+          "s.toml:15:12: load.friction = 0.002: must be a torque per angular speed with its unit, "
+          "such as 0.05 N m s/rad",
+          "s.toml:17:14: loop.error_gain = 10 V: must be a voltage per angle, such as 10 V/rad; "
           "the angle must be written",
           "s.toml:20:15: contact.restitution = 1.5: must be from 0 to 1"));
 }
@@ -317,8 +315,8 @@ TEST(ServoFileRefusal, KindOfMotor) {
   EXPECT_THAT(
       refusals(replaced(sample, "armature-", "field-")),
       ElementsAre(StartsWith("s.toml:6:1: motor.back_emf_constant = 0.233 V/(rad/s): is not "
-                             "a key of [motor]: must be one of kind, inertia, friction, "
-                             "torque_constant, resistance")));
+                             "a key of [motor] with kind = \"field-controlled\", but with "
+                             "\"armature-controlled\"")));
 }
 
 TEST(ServoFileRefusal, OtherFaultsBesideAnUnknownKind) {
@@ -399,8 +397,7 @@ TEST(ServoFileRefusal, OfAnotherType) {
     EXPECT_THAT(
         refusals(replaced(sample, "\"282 ohm\"", value)),
         ElementsAre("s.toml:7:14: motor.resistance = " + std::string(value) +
-                    ": must be a text with a number and a unit of electrical resistance, such "
-                    "as \"1 ohm\""));
+                    ": must be an electrical resistance with its unit as text: \"2.8 ohm\""));
   }
   for (const char* value : {"true", "[1]", "\"one\"", "\"1:1:1\""}) {
     EXPECT_THAT(refusals(replaced(sample, "ratio = 1", std::string("ratio = ") + value)),

@@ -334,7 +334,7 @@ TEST(EdgeDriveFile, EveryFaultIsToldAtOnce) {
                           HasSubstr("sensor.counts_per_turn = 0: must be positive"),
                           HasSubstr("sampling.period = 0 s: must be positive"),
                           HasSubstr("reference.speed = 0 rad/s: must be positive"),
-                          HasSubstr("load_torque.after = 0.1 rad: must be torque")));
+                          HasSubstr("load_torque.after = 0.1 rad: must be a torque")));
 }
 
 TEST(EdgeDriveFile, ControllersThatNothingCanBeGetALine) {

@@ -81,7 +81,7 @@ TEST(JointFile, GravityIsLinearisedWhereTheReferenceEnds) {
       refusals({{"reference.kind", "ramp"}, {"reference.rate", "1 rad/s"}}),
       ElementsAre(HasSubstr("load.gravity = 8 N m: must be 0 with a reference that is a ramp")));
   EXPECT_THAT(refusals({{"load.gravity", "8 N"}}),
-              ElementsAre(HasSubstr("load.gravity = 8 N: must be torque, such as N m")));
+              ElementsAre(HasSubstr("load.gravity = 8 N: must be a torque, such as 2 N m")));
 }
 
 TEST(JointFile, GravityBesideAReferenceThatCannotBeReadIsNoFault) {

@@ -89,7 +89,8 @@ TEST(PrintedSheet, EveryQuantityMayBeAPlainZero) {
   EXPECT_THAT(refusals({{"motor.resistance", "0"}}),
               ElementsAre(HasSubstr("motor.resistance = 0: must be positive and finite")));
   EXPECT_THAT(refusals({{"motor.friction", "1"}}),
-              ElementsAre(HasSubstr("motor.friction = 1: must be a number and a unit")));
+              ElementsAre(HasSubstr(
+                  "motor.friction = 1: must be a torque per angular speed with its unit")));
   EXPECT_THAT(refusals({{"motor.speed_constant", "0"}}),
               ElementsAre(HasSubstr("motor.speed_constant = 0: must not be 0")));
 }
@@ -157,8 +158,9 @@ TEST(PrintedSheet, OtherWordsNameTheSameKind) {
 TEST(PrintedSheet, AnInductanceBelowZeroIsRefused) {
   EXPECT_THAT(refusals({{"motor.inductance", "-1 mH"}}),
               ElementsAre(HasSubstr("motor.inductance = -1 mH: must be zero or positive")));
-  EXPECT_THAT(refusals({{"motor.inductance", "1 ohm"}}),
-              ElementsAre(HasSubstr("motor.inductance = 1 ohm: must be inductance, such as H")));
+  EXPECT_THAT(
+      refusals({{"motor.inductance", "1 ohm"}}),
+      ElementsAre(HasSubstr("motor.inductance = 1 ohm: must be an inductance, such as 1.2 mH")));
 }
 
 }  // namespace

@@ -210,37 +210,46 @@ TEST(Units, RefusesWhatIsNoNumber) {
   EXPECT_EQ(refusal("1e-999 rad", angle),
             "key = 1e-999 rad: must be a number from 1e-308 to 1e308 in SI units, or zero");
   EXPECT_EQ(refusal("1,5 rad", angle),
-            "key = 1,5 rad: must be angle, such as rad; the decimal sign is a point");
+            "key = 1,5 rad: must be an angle, such as 12 arcmin; the decimal sign is a point");
 }
 
 TEST(Units, RefusesAnotherDimensionAndSaysWhatItExpects) {
   EXPECT_EQ(refusal("3 V", torque_per_current),
-            "key = 3 V: must be torque per current, such as N m/A");
-  EXPECT_EQ(refusal("28.2 oz in/A", torque_per_current),
-            "key = 28.2 oz in/A: must be torque per current, such as N m/A; oz, lb, g and kg are "
-            "masses, the forces are ozf, lbf, gf and kgf");
-  EXPECT_EQ(refusal("0.233 V/rad/s", voltage_per_speed),
-            "key = 0.233 V/rad/s: must be voltage per angular speed, such as V s/rad; x/rad/s is "
-            "x/(rad s), write x/(rad/s)");
-  EXPECT_EQ(refusal("1 oz-in-s2", inertia),
-            "key = 1 oz-in-s2: must be moment of inertia, such as kg m2; oz, lb, g and kg are "
-            "masses, the forces are ozf, lbf, gf and kgf");
+            "key = 3 V: must be a torque per current, such as 0.35 N m/A");
+  EXPECT_EQ(
+      refusal("28.2 oz in/A", torque_per_current),
+      "key = 28.2 oz in/A: must be a torque per current, such as 0.35 N m/A; oz, lb, g and kg are "
+      "masses, the forces are ozf, lbf, gf and kgf");
+  EXPECT_EQ(refusal("1 A/(rad/s)", torque_per_angle),
+            "key = 1 A/(rad/s): must be a torque per angle, such as 20 N m/rad");
+  EXPECT_EQ(
+      refusal("0.233 V/rad/s", voltage_per_speed),
+      "key = 0.233 V/rad/s: must be a voltage per angular speed, such as 3.67 mV/rpm; x/rad/s is "
+      "x/(rad s), write x/(rad/s)");
+  EXPECT_EQ(
+      refusal("1 oz-in-s2", inertia),
+      "key = 1 oz-in-s2: must be a moment of inertia, such as 0.3 kg cm2; oz, lb, g and kg are "
+      "masses, the forces are ozf, lbf, gf and kgf");
 }
 
 TEST(Units, AnswersTheCommonMistakes) {
   EXPECT_EQ(refusal("12 minutes", angle),
-            "key = 12 minutes: must be angle, such as rad; minutes and seconds of arc are arcmin "
+            "key = 12 minutes: must be an angle, such as 12 arcmin; minutes and seconds of arc are "
+            "arcmin "
             "and arcsec");
   EXPECT_EQ(refusal("0.5 mil", angle),
-            "key = 0.5 mil: must be angle, such as rad; this is a length, milliradians are mrad");
+            "key = 0.5 mil: must be an angle, such as 12 arcmin; this is a length, milliradians "
+            "are mrad");
   EXPECT_EQ(refusal("1\u00B030'", angle),
-            "key = 1\u00B030': must be angle, such as rad; an angle takes one unit: 1.5\u00B0 or "
+            "key = 1\u00B030': must be an angle, such as 12 arcmin; an angle takes one unit: "
+            "1.5\u00B0 or "
             "90'");
   for (const char* text : {"5 V/1000 rpm", "5 V per 1000 rpm"}) {
-    EXPECT_EQ(refusal(text, voltage_per_speed),
-              "key = " + std::string(text) +
-                  ": must be voltage per angular speed, such as V s/rad; x/1000 rpm is (x/1000) "
-                  "rpm, write x/(1000 rpm)");
+    EXPECT_EQ(
+        refusal(text, voltage_per_speed),
+        "key = " + std::string(text) +
+            ": must be a voltage per angular speed, such as 3.67 mV/rpm; x/1000 rpm is (x/1000) "
+            "rpm, write x/(1000 rpm)");
   }
 }
 
@@ -263,25 +272,27 @@ TEST(Units, NeverConvertsByReciprocalOffsetOrLogarithm) {
 
 TEST(Units, RadianIsWrittenWhereItTellsSpeedsFromFrequencies) {
   EXPECT_EQ(refusal("10 V", voltage_per_angle),
-            "key = 10 V: must be voltage per angle, such as V/rad; the angle must be written");
+            "key = 10 V: must be a voltage per angle, such as 10 V/rad; the angle must be written");
   EXPECT_EQ(refusal("2 s-1", angular_frequency),
-            "key = 2 s-1: must be angular frequency, such as rad/s; the angle must be written");
-  EXPECT_EQ(refusal("1 kg m2 rad", inertia),
-            "key = 1 kg m2 rad: must be moment of inertia, such as kg m2; it contains no angle");
+            "key = 2 s-1: must be an angular frequency, such as 20 Hz; the angle must be written");
+  EXPECT_EQ(
+      refusal("1 kg m2 rad", inertia),
+      "key = 1 kg m2 rad: must be a moment of inertia, such as 0.3 kg cm2; it contains no angle");
   EXPECT_TRUE(refusal("0.1 m/m", angle).starts_with("key = "));
   EXPECT_TRUE(refusal("1 N m s rad", torque_per_speed).starts_with("key = "));
   EXPECT_TRUE(refusal("1 rad2", angle).starts_with("key = "));
 }
 
 TEST(Units, PerMinuteWithoutAngleIsAmbiguous) {
-  EXPECT_EQ(refusal("24 mV/min-1", voltage_per_speed),
-            "key = 24 mV/min-1: must be voltage per angular speed, such as V s/rad; per minute may "
-            "mean rad or turns, write rpm, rev/min or rad/min");
+  EXPECT_EQ(
+      refusal("24 mV/min-1", voltage_per_speed),
+      "key = 24 mV/min-1: must be a voltage per angular speed, such as 3.67 mV/rpm; per minute may "
+      "mean rad or turns, write rpm, rev/min or rad/min");
   EXPECT_NEAR(to_si("key", "1 V min/rad", voltage_per_speed), 60.0, 60 * tolerance);
 }
 
 TEST(Units, NamesTheWordOrSignItCannotRead) {
-  const std::string expected = "must be moment of inertia, such as kg m2; ";
+  const std::string expected = "must be a moment of inertia, such as 0.3 kg cm2; ";
   EXPECT_EQ(refusal("1 furlongg", inertia),
             "key = 1 furlongg: " + expected + "\"furlongg\" is no known unit");
   // Grain to UDUNITS-2, gram to others.

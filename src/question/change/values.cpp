@@ -366,10 +366,10 @@ void add_present(double present, std::vector<double>& grid) {
   grid.insert(above, present);
 }
 
-/// Whether the path means the parameter itself, not its reciprocal.
+/// Whether the path means the parameter itself, not another number that gives it.
 bool is_alias(const Parameter& parameter, std::string_view path) {
   const OtherForm* form = form_named(parameter, path);
-  return form != nullptr && form->dimension == nullptr;
+  return form != nullptr && form->relation == Relation::same;
 }
 
 /// What a designer considers first, if it enters the closed form.

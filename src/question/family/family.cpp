@@ -18,13 +18,13 @@ std::vector<double NormalizedServo::*> members_of(const std::vector<Axis>& axes)
   return members;
 }
 
-/// Where a number of the drive lies; nullptr for a word, an element of a list, a reciprocal, and
+/// Where a number of the drive lies; nullptr for a word, an element of a list, another form, and
 /// for what the drive does not have.
 double* place_in(Drive& drive, std::string_view path) {
   const Parameter* parameter = find_parameter(path, drive);
   if (parameter == nullptr) return nullptr;
   const OtherForm* form = form_named(*parameter, path);
-  if (form != nullptr && form->dimension != nullptr) return nullptr;
+  if (form != nullptr && form->relation != Relation::same) return nullptr;
   const Slot slot = parameter->slot(drive);
   if (auto* const* number = std::get_if<double*>(&slot)) return *number;
   if (auto* const* given = std::get_if<std::optional<double>*>(&slot)) {
