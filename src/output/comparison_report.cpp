@@ -162,7 +162,7 @@ std::string in_blocks(const TextRows& rows) {
 
 std::vector<Quantity> usual_quantities_compared() {
   return {Quantity::amplitude,    Quantity::motor_amplitude, Quantity::frequency,
-          Quantity::static_error, Quantity::ceiling,         Quantity::bandwidth,
+          Quantity::error, Quantity::ceiling,         Quantity::bandwidth,
           Quantity::phase_margin, Quantity::rise_time,       Quantity::overshoot,
           Quantity::settling_time};
 }

@@ -153,7 +153,7 @@ TEST(CompareCommand, ShowsTheQuantitiesThatAreAskedFor) {
   const Words asked = {servo, "--quantities", "multiplier,static-error,multiplier,verdict"};
   const std::string text = run_tool(joined({"compare"}, asked)).out;
   EXPECT_THAT(text, HasSubstr("\n  multiplier "));
-  EXPECT_THAT(text, HasSubstr("\n  static error (rad) "));
+  EXPECT_THAT(text, HasSubstr("\n  error (rad) "));
   EXPECT_THAT(text, Not(HasSubstr("bandwidth")));
   const json printed = compared(asked);
   EXPECT_EQ(printed["quantities"], json({"multiplier", "static_error", "verdict"}));

@@ -141,7 +141,7 @@ class Units {
       judged.missed_by = missed_by(task_.target, judged.answer, drive.gearbox.backlash);
     }
     judged.reached = task_.aim == Aim::static_error
-                         ? judged.answer.value(Quantity::static_error).value_or(not_a_number)
+                         ? judged.answer.value(Quantity::error).value_or(not_a_number)
                          : reached_without_search(unit, tuned, loop, progress);
     return judged;
   }
