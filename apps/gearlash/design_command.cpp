@@ -123,7 +123,7 @@ void check_options(const DesignOptions& options, Faults& faults) {
 std::vector<Axis> read_axes(const DesignOptions& options, const Drive& drive, Faults& faults) {
   std::vector<std::string> texts = options.parameters.empty() ? options.vary : options.parameters;
   if (texts.empty()) texts = usual_parameters(drive);
-  return collect_axes("--parameters", texts, drive, read_axis_to_search, faults);
+  return collect_axes_to_search(texts, drive, faults);
 }
 
 ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
@@ -148,7 +148,8 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
   const std::size_t known = count_of(
       report.design.parameters, [](const DesignedParameter& one) { return !one.values.stopped; });
   std::optional<GridTable> table;
-  return give({.text = options.format == "json" ? design_json(report) : design_text(report),
+  return give({.text = options.format == "json" ? design_json(report)
+                                                : fitted_to_output(design_text(report)),
                .unknown = unknown_text(known, axes.size())},
               work, plots, [&](const PlotFile& plot) {
                 if (!table) table = work_out(region, work, provenance).table;

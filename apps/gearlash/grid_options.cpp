@@ -78,6 +78,7 @@ std::optional<WrittenDrive> read_fixed_drive(const ServoOptions& options,
     const std::size_t number = number_with(path);
     if (number < completed.numbers.size()) put_in_stand_in(completed, number);
   }
+  if (!has_drive(completed)) return resolve_drive(completed, outputs, faults);
   if (options.file.empty() && !completed.backlash()) completed.backlash() = "1";
   for (std::size_t i = 0; i < completed.numbers.size() && !are_all_there; ++i) {
     if (normal_form_numbers[i].path != "contact.restitution") put_in_stand_in(completed, i);
@@ -242,6 +243,25 @@ GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption
   return task;
 }
 
+std::string refused_text(const Grid& grid, const RowCount& count) {
+  std::vector<double> values(grid.axes.size());
+  for (std::size_t point = 0; point < grid.size() && count.refused > 0; ++point) {
+    std::string place;
+    for (std::size_t i = grid.axes.size(), rest = point; i-- > 0;) {
+      const Axis& axis = grid.axes[i];
+      values[i] = axis.values[rest % axis.values.size()];
+      rest /= axis.values.size();
+      place = axis.path + " = " + text_of(axis, grid.drive, values[i]) +
+              (place.empty() ? "" : ", ") + place;
+    }
+    const std::vector<Fault> found = faults(drive_with(grid.drive, grid.axes, values));
+    if (found.empty()) continue;
+    return fmt::format("{} of {} points refused, the first at {}: {}", count.refused,
+                       count.points(), place, to_string(found.front()));
+  }
+  return "";
+}
+
 std::string solved_text(const RowCount& count) {
   const std::size_t servos = count.solved.side_by_side + count.solved.one_by_one;
   std::string text = fmt::format("{} {}", count.points(), count.searched > 0 ? "drives" : "servos");
@@ -332,6 +352,7 @@ ExitStatus make_grid_files(const GridTask& task, LimitedWork& work, const Proven
       made.push_back(shown(file.file, std::string::npos));
     });
   }
+  report_lines(refused_text(task.grid, count));
   extras.print((made.empty() ? "" : listed(made) + ": ") + solved_text(count) + "\n");
   return extras.status(status);
 }

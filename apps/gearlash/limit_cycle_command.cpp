@@ -71,8 +71,7 @@ Plot plot_of(const Result& result, const std::string& kind, LimitedWork& work) {
 /// The parameters of the margins; none: the usual ones.
 std::vector<Axis> read_parameters(const LimitCycleOptions& options, const Drive& drive,
                                   Faults& faults) {
-  std::vector<Axis> axes =
-      collect_axes("--parameters", options.parameters, drive, read_axis_to_search, faults);
+  std::vector<Axis> axes = collect_axes_to_search(options.parameters, drive, faults);
   if (!options.parameters.empty() && !options.margins) {
     faults.add("--parameters", options.parameters.front(), "must come with --margins");
   }
@@ -88,9 +87,8 @@ void add_margins(Result& result, const Drive& drive, const std::vector<Axis>& ax
 }
 
 Result analysed(const WrittenDrive& written, const Provenance& provenance, LimitedWork& work) {
-  const Wanted wanted{.ceiling = true,
-                      .causes = true,
-                      .motion_bytes = bytes_of_motion(work.limits())};
+  const Wanted wanted{
+      .ceiling = true, .causes = true, .motion_bytes = bytes_of_motion(work.limits())};
   Result result{.analysis = analyse_in_full(written.drive, wanted,
                                             TerminalProgress(work, "Searching").as_argument())};
   result.report = report_of(written.drive, result.analysis.answer, written.angle, provenance);
@@ -120,13 +118,19 @@ std::optional<MeasuredHunting> read_hunting(const std::string& text) {
 
 std::string printed(const Result& result, const LimitCycleOptions& options) {
   if (options.format == "json") return answer_json(result.report);
-  if (options.brief) return headline(result.report) + "\n";
+  if (options.brief) return fitted_to_output(headline(result.report) + "\n");
   return with_bold_headline(answer_text(result.report));
 }
 
 ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
   Faults faults;
   faults.require_choice("--format", options.format, {"text", "json"});
+  if (options.brief) {
+    faults.refuse_beside_brief({{"--margins", options.margins ? "yes" : ""},
+                                {"--sensitivities", options.sensitivities ? "yes" : ""},
+                                {"--measured", options.measured},
+                                {"--format", options.format == "text" ? "" : options.format}});
+  }
   const std::vector<PlotFile> plots =
       read_plots(options.plots, {"phase", "time", "tornado", "ceiling"}, faults);
   const std::optional<WrittenDrive> written = resolve_drive(options.servo, files_of(plots), faults);

@@ -269,7 +269,7 @@ ExitStatus run(const ServoOptions& options, const Provenance&) {
   // With --set the texts of the file no longer apply.
   std::map<std::string, std::string> texts;
   if (options.settings.empty()) texts = written->texts;
-  write_file("-", motor_procedure(written->drive, written->angle, texts));
+  write_file("-", fitted_to_output(motor_procedure(written->drive, written->angle, texts)));
   return ExitStatus::done;
 }
 

@@ -13,12 +13,14 @@
 #include "model/reduced_drive.hpp"
 #include "output/output_file.hpp"
 #include "question/analyse.hpp"
+#include "question/axis.hpp"
 #include "verb.hpp"
 
 namespace gearlash::cli {
 namespace {
 
-constexpr char servo_group[] = "Servo";
+constexpr char drive_group[] = "Drive";
+constexpr char servo_group[] = "Servo of 1960, without a file";
 
 /// The help and the type of an option for each of normal_form_numbers, which describe a servo
 /// without a file.
@@ -112,23 +114,23 @@ void add_set_option(const Command& command, ServoOptions& options) {
   command.add_option("--set PATH=VALUE", options.settings,
                      "Set any parameter of the drive by its path, with its unit: "
                      "gearbox.backlash=\"12 arcmin\"; repeatable; gearlash show lists the paths",
-                     {.group = servo_group, .takes_one_word = true});
+                     {.group = drive_group, .takes_one_word = true});
 }
 
 void add_drive_options(const Command& command, ServoOptions& options,
                        const std::string& sensor_help) {
+  add_set_option(command, options);
+  command.add_option("--sensor SHAFT", options.sensor, sensor_help, {.group = drive_group});
+  for (std::size_t i = 0; i < options.asked.size(); ++i) {
+    const SpecificationOption& option = specification_options[i];
+    command.add_option(std::string(option.name) + " ANGLE", options.asked[i], option.help,
+                       {.group = drive_group});
+  }
   for (std::size_t i = 0; i < options.numbers.size(); ++i) {
     const auto& [help, type] = number_options[i];
     const std::string name = option_name(normal_form_numbers[i].name) + " " + type;
     command.add_option(name, options.numbers[i], help, {.group = servo_group});
   }
-  command.add_option("--sensor SHAFT", options.sensor, sensor_help, {.group = servo_group});
-  for (std::size_t i = 0; i < options.asked.size(); ++i) {
-    const SpecificationOption& option = specification_options[i];
-    command.add_option(std::string(option.name) + " ANGLE", options.asked[i], option.help,
-                       {.group = servo_group});
-  }
-  add_set_option(command, options);
 }
 
 namespace {
@@ -182,6 +184,13 @@ void Faults::require_choice(const std::string& field, const std::string& value,
                             const std::vector<std::string>& choices) {
   if (contains(choices, value)) return;
   add(field, shown(value), "must be " + alternatives(choices));
+}
+
+void Faults::refuse_beside_brief(const std::vector<std::pair<const char*, std::string>>& options) {
+  for (const auto& [option, value] : options) {
+    if (value.empty()) continue;
+    add(option, shown(value), "must be left out, or --brief, which prints the headline alone");
+  }
 }
 
 void Faults::require_distinct(std::vector<FileUse> others, const std::vector<FileUse>& outputs) {
@@ -326,6 +335,18 @@ std::vector<Axis> collect_axes(const char* field, const std::vector<std::string>
   return collect_axes(texts, read_one, faults);
 }
 
+std::vector<Axis> collect_axes_to_search(const std::vector<std::string>& texts, const Drive& drive,
+                                         Faults& faults) {
+  std::vector<Axis> axes = collect_axes("--parameters", texts, drive, read_axis_to_search, faults);
+  for (Axis axis : axes) {
+    const bool is_typed =
+        any_of(texts, [&](const std::string& text) { return text.starts_with(axis.path + "="); });
+    const std::string unsound = is_typed ? cut_to_sound(axis, drive) : "";
+    if (!unsound.empty()) report_lines("--parameters " + axis.path + ": left out: " + unsound);
+  }
+  return axes;
+}
+
 double read_time(const char* field, const std::string& text, Faults& faults) {
   const auto read = [&] { return read_measured(field, text, dimensions::time).si; };
   const double time = faults.collect(read, 1.0);
@@ -354,8 +375,19 @@ std::optional<WrittenDrive> read_drive_or_faults(const ServoOptions& options, Fa
 
 }  // namespace
 
+bool has_drive(const ServoOptions& options) {
+  return !options.file.empty() || !options.settings.empty() || !typed_numbers(options).empty();
+}
+
 std::optional<WrittenDrive> resolve_drive(const ServoOptions& options,
                                           const std::vector<FileUse>& outputs, Faults& faults) {
+  if (!has_drive(options)) {
+    faults.add("DRIVE.toml", "",
+               "must be a drive's file, such as examples/robot-joint.toml; or give --damping, "
+               "--inertia-ratio, --friction-ratio and --backlash of a normal form");
+    faults.require_writable(outputs);
+    return std::nullopt;
+  }
   std::optional<WrittenDrive> written = read_drive_or_faults(options, faults);
   std::vector<FileUse> inputs;
   if (written) inputs = named_tables(written->drive, options.file);

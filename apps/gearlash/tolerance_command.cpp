@@ -185,7 +185,8 @@ ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
                          .provenance = provenance};
   work_out(task, work, report);
   report.stopped = work.is_stopped();
-  return give({.text = options.format == "json" ? tolerance_json(report) : tolerance_text(report),
+  return give({.text = options.format == "json" ? tolerance_json(report)
+                                                : fitted_to_output(tolerance_text(report)),
                .unknown = unknown_text(report)},
               work, task.plots, [&](const PlotFile& plot) {
                 if (report.sensitivities.numbers.empty()) refuse_to_draw(plot);

@@ -22,10 +22,9 @@ constexpr char tune_examples[] =
 
 constexpr char tune_explanation[] =
     "The series is what the tolerances of DRIVE.toml permit (gearlash tolerance --help shows how "
-    "to\n"
-    "write them); without tolerances it is the one drive. The target, if none is given, is to come "
-    "to\n"
-    "rest, or to hunt by no more than one step of the encoder.\n\n";
+    "to write them); without tolerances it is the one drive. The target, if none is given, is to "
+    "come "
+    "to rest, or to hunt by no more than one step of the encoder.\n\n";
 
 struct TuneOptions : QuestionOptions {
   std::vector<std::string> parameters;
@@ -120,13 +119,14 @@ ExitStatus run(const TuneOptions& options, const Provenance& provenance) {
     report.present = analyse(report.task.series.nominal, {.proofs = false}, progress);
     report.nominal = analyse(report.tuned.drive, {.proofs = false}, progress);
   }
-  return give({.text = options.format == "json" ? tune_json(report) : tune_text(report),
-               .unknown = report.tuned.stopped ? "the values are the best by then"
-                                               : "what these values do is not"},
-              work, [&](Extras& extras) {
-                if (options.write.empty()) return;
-                extras.make([&] { write_file(options.write, tuned_toml(report)); });
-              });
+  return give(
+      {.text = options.format == "json" ? tune_json(report) : fitted_to_output(tune_text(report)),
+       .unknown = report.tuned.stopped ? "the values are the best by then"
+                                       : "what these values do is not"},
+      work, [&](Extras& extras) {
+        if (options.write.empty()) return;
+        extras.make([&] { write_file(options.write, tuned_toml(report)); });
+      });
 }
 
 }  // namespace
