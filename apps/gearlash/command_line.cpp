@@ -38,6 +38,17 @@ void require_known_subcommand(const CLI::App& app, const std::string& typed,
                            {words.begin() + 1, words.end()});
 }
 
+/// CLI11's help of options without lists of those that exclude one another.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const bool is_list = option->get_expected_max() == CLI::detail::expected_max_vector_size;
+    const std::string type = option->get_type_size() == 0 ? "" : option->get_type_name();
+    return (type.empty() ? "" : " " + type) + (is_list ? " ..." : "") +
+           (option->get_required() ? " REQUIRED" : "");
+  }
+};
+
 // ---- usage faults -------------------------------------------------------------------------------
 
 /// The verb that was parsed, with the words before it: "gearlash thesis run".
@@ -157,6 +168,7 @@ Command::Command(const std::string& name, const std::string& description,
                  const std::string& version_text)
     : app_(std::make_shared<CLI::App>(description, name)) {
   app_->set_version_flag("--version", version_text);
+  app_->formatter(std::make_shared<HelpFormatter>());
   app_->get_formatter()->column_width(help_column);
   app_->get_formatter()->label("Positionals", "Files and words");
   app_->get_formatter()->label("SUBCOMMAND", "VERB");

@@ -174,8 +174,8 @@ void add_design_command(const Command& app, Action& action) {
       "--parameters NAMES", options.parameters,
       "List the parameters that may change, separated by commas: any number or choice by its path, "
       "such as gearbox.ratio, or with a range, PATH=FROM:TO:COUNT[:log], with units; default those "
-      "of --vary, else those that are easiest to change. Without a range: 0.001 to 1000 times the "
-      "present value where the closed form answers, else 0.1 to 10 times",
+      "of --vary, else those that are easiest to change. Without a range: 0.1 to 10 times the "
+      "present value, of a servo as that of 1960 0.001 to 1000 times",
       {.delimiter = ','});
   command.add_option("--vary X,Y", options.vary,
                      "Choose two parameters, separated by a comma, each with or without a range; "

@@ -79,7 +79,11 @@ std::optional<WrittenDrive> read_fixed_drive(const ServoOptions& options,
     if (number < completed.numbers.size()) put_in_stand_in(completed, number);
   }
   if (!has_drive(completed)) return resolve_drive(completed, outputs, faults);
-  if (options.file.empty() && !completed.backlash()) completed.backlash() = "1";
+  const bool has_backlash =
+      completed.backlash() || any_of(options.settings, [](const std::string& setting) {
+        return setting.starts_with("servo.backlash");
+      });
+  if (options.file.empty() && !has_backlash) completed.backlash() = "1";
   for (std::size_t i = 0; i < completed.numbers.size() && !are_all_there; ++i) {
     if (normal_form_numbers[i].path != "contact.restitution") put_in_stand_in(completed, i);
   }
@@ -159,10 +163,10 @@ void add_grid_options(const Command& command, GridOptions& options, const std::s
                      "Write this table (.csv, .json, .nc) or picture (.svg, .png, .pdf)");
   add_plot_option(command, options.plots, drawing);
   command.add_flag("--proved", options.proved,
-                   "Prove each verdict of the closed form with plastic contact by interval "
-                   "arithmetic; verdicts that it cannot prove are undecided");
-  add_servo_or_drive_options(command, options.servo);
+                   "Prove each verdict by interval arithmetic, for servos as that of 1960 with "
+                   "plastic contact; verdicts that it cannot prove are undecided");
   add_limit_options(command, options.limits);
+  add_servo_or_drive_options(command, options.servo);
 }
 
 Quantity read_quantity(const std::string& text, Faults& faults) {

@@ -16,6 +16,7 @@ namespace gearlash::cli {
 namespace {
 
 constexpr char limit_cycle_examples[] =
+    "  gearlash limit-cycle examples/robot-joint.toml --brief\n"
     "  gearlash limit-cycle examples/elinco-fd162.toml --plot phase=hunting.svg\n"
     "  gearlash limit-cycle examples/elinco-fd162.toml --backlash \"12 arcmin\"\n"
     "  gearlash limit-cycle --damping 0.19 --inertia-ratio 2 --friction-ratio 1/10 --backlash 0.3\n"
@@ -177,21 +178,18 @@ void add_limit_cycle_command(const Command& app, Action& action) {
                   "them, time=FILE, such a motion over time, tornado=FILE, the sensitivities of "
                   "the amplitude, or ceiling=FILE, what the proved bound of every motion is made "
                   "of;");
-  command.add_flag(
-      "--margins", options.margins,
-      "Add how far each parameter may change before hunting ends or begins, and all of "
-      "them together; with bounces, or without a closed form, this takes seconds to "
-      "minutes");
+  command.add_flag("--margins", options.margins,
+                   "Add how far each parameter may change before hunting ends or begins, and all "
+                   "of them together; for most drives this takes seconds to minutes");
   command.add_option("--parameters NAMES", options.parameters,
                      "List the parameters of --margins, by path, separated by commas: any number "
                      "or choice of the drive, searched from 0.1 to 10 times its present value or "
-                     "over PATH=FROM:TO:COUNT[:log]; default those of design, and of drives "
-                     "without a closed form the backlash and the controller's numbers",
+                     "over PATH=FROM:TO:COUNT[:log]; default the backlash and the controller's "
+                     "numbers, of a servo as that of 1960 those of design",
                      {.delimiter = ','});
-  command.add_flag(
-      "--sensitivities", options.sensitivities,
-      "Add sensitivities to every parameter, in per cent for one per cent; of searched "
-      "drives for a continuous controller without encoder");
+  command.add_flag("--sensitivities", options.sensitivities,
+                   "Add sensitivities to every parameter, in per cent for one per cent; not for a "
+                   "sampled controller or an encoder");
 }
 
 }  // namespace gearlash::cli

@@ -28,7 +28,9 @@ constexpr std::pair<const char*, const char*> number_options[] = {
     {"Set the damping ratio: 0, or 1e-15 to 1000", "NUMBER"},
     {"Set the inertia ratio, load to motor: 0 to inf", "NUMBER"},
     {"Set the friction ratio, load to total: 0 to 1", "NUMBER"},
-    {"Set the backlash at the load, face to face, in rad or with a unit: \"12 arcmin\"", "ANGLE"},
+    {"Set the backlash at the load, face to face, also of a file's drive: \"12 arcmin\"; without a "
+     "file a bare number is in rad",
+     "ANGLE"},
     {"Set the restitution: 0 (plastic, the default) to 1 (elastic)", "NUMBER"}};
 
 struct SpecificationOption {
@@ -67,10 +69,10 @@ std::vector<TypedNumber> typed_numbers(const ServoOptions& options) {
   return typed;
 }
 
-/// As --set would give it. A bare backlash is in radians.
-Setting setting_of(const TypedNumber& typed, bool is_normal_form) {
+/// As --set would give it. Without a file a bare backlash is in radians.
+Setting setting_of(const TypedNumber& typed, bool is_normal_form, bool has_file) {
   const std::string path(path_of(typed.number, is_normal_form));
-  const bool is_bare = path.ends_with("backlash") && bare_number(typed.text);
+  const bool is_bare = !has_file && path.ends_with("backlash") && bare_number(typed.text);
   return {path, typed.text + (is_bare ? " rad" : "")};
 }
 
@@ -296,7 +298,9 @@ WrittenDrive read_drive_as_typed(const ServoOptions& options, std::vector<Settin
     is_normal_form = is_form;
     std::vector<Setting> numbers;
     for (const TypedNumber& typed : typed_numbers(options)) {
-      if (is_form || !is_ratio(typed.number)) numbers.push_back(setting_of(typed, is_form));
+      if (is_form || !is_ratio(typed.number)) {
+        numbers.push_back(setting_of(typed, is_form, !options.file.empty()));
+      }
     }
     // The last one holds: --set changes a servo of options, which change the drive of a file.
     const auto place = options.file.empty() ? settings.begin() : settings.end();
@@ -364,6 +368,26 @@ double read_share(const char* field, const std::string& text, Faults& faults) {
 
 namespace {
 
+/// Options whose parameter --set gives too.
+void refuse_given_twice(const ServoOptions& options, Faults& faults) {
+  const auto check = [&](const std::string& option, const std::optional<std::string>& typed,
+                         const std::vector<std::string_view>& paths) {
+    for (const std::string& setting : options.settings) {
+      const bool is_same = contains(paths, trimmed(setting.substr(0, setting.find('='))));
+      if (!typed || !is_same) continue;
+      faults.add(option, shown(*typed), "must be left out, or --set " + shown(setting));
+    }
+  };
+  for (std::size_t i = 0; i < options.numbers.size(); ++i) {
+    const NormalFormNumber& number = normal_form_numbers[i];
+    check(option_name(number.name), options.numbers[i], {number.path, path_of(number, false)});
+  }
+  for (std::size_t i = 0; i < options.asked.size(); ++i) {
+    check(specification_options[i].name, options.asked[i], {specification_options[i].path});
+  }
+  check("--sensor", options.sensor, {"sensor.position"});
+}
+
 std::optional<WrittenDrive> read_drive_or_faults(const ServoOptions& options, Faults& faults) {
   try {
     return read_drive_as_typed(options, settings_of(options, faults));
@@ -388,6 +412,7 @@ std::optional<WrittenDrive> resolve_drive(const ServoOptions& options,
     faults.require_writable(outputs);
     return std::nullopt;
   }
+  refuse_given_twice(options, faults);
   std::optional<WrittenDrive> written = read_drive_or_faults(options, faults);
   std::vector<FileUse> inputs;
   if (written) inputs = named_tables(written->drive, options.file);
@@ -401,7 +426,7 @@ std::optional<WrittenDrive> resolve_drive(const ServoOptions& options,
 ProportionalServo servo_of_1960(const WrittenDrive& written, const ServoOptions& options) {
   if (const auto servo = settled_servo(written.drive)) return *servo;
   throw InvalidInput(
-      {{"drive", "without a closed form", permitted_with_servo, shown(options.file)}});
+      {{"drive", "not a servo as that of 1960", permitted_with_servo, shown(options.file)}});
 }
 
 }  // namespace gearlash::cli
