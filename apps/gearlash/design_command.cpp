@@ -6,6 +6,7 @@
 #include "base/lists.hpp"
 #include "grid_options.hpp"
 #include "input/axis_text.hpp"
+#include "input/section_reader.hpp"
 #include "output/design_report.hpp"
 #include "picture/grid_map.hpp"
 #include "question/axis.hpp"
@@ -115,7 +116,7 @@ void check_options(const DesignOptions& options, Faults& faults) {
                    : Fault{"--vary", "", "must name the two parameters of the picture"});
   }
   if (!options.vary.empty() && !are_two(options.vary)) {
-    faults.add("--vary", std::to_string(options.vary.size()) + " names",
+    faults.add("--vary", shown(listed(options.vary)),
                "must be two different parameters, separated by a comma");
   }
 }

@@ -185,7 +185,7 @@ void Faults::add(Fault fault) {
 void Faults::require_choice(const std::string& field, const std::string& value,
                             const std::vector<std::string>& choices) {
   if (contains(choices, value)) return;
-  add(field, shown(value), "must be " + alternatives(choices));
+  add(field, shown(value), "must be " + alternatives(choices) + guess_of(choices, value));
 }
 
 void Faults::refuse_beside_brief(const std::vector<std::pair<const char*, std::string>>& options) {
@@ -202,7 +202,8 @@ void Faults::require_distinct(std::vector<FileUse> others, const std::vector<Fil
         others, [&](const FileUse& other) { return is_same_file(output.file, other.file); });
     if (same != nullptr) {
       add(output.use, shown(output.file),
-          "must not be the file of " + same->use + ", " + shown(same->file));
+          std::string("must not be the file of ") + (same->use == output.use ? "another " : "") +
+              same->use + ", " + shown(same->file));
     }
     others.push_back(output);
   }
@@ -246,6 +247,11 @@ std::vector<Fault> named_as_typed(std::vector<Fault> faults, const ServoOptions&
     if (!has_file) fault.where.clear();
     if (options.sensor && (fault.path == "sensor.position" || fault.path == "loop.sensor")) {
       fault.path = "--sensor";
+      fault.where.clear();
+    }
+    for (std::size_t i = 0; i < options.asked.size(); ++i) {
+      if (!options.asked[i] || fault.path != specification_options[i].path) continue;
+      fault.path = specification_options[i].name;
       fault.where.clear();
     }
     for (std::size_t i = 0; i < options.numbers.size(); ++i) {

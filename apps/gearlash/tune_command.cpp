@@ -1,10 +1,12 @@
 // gearlash tune: the best values of several parameters for a whole series.
+#include <numbers>
 
 #include "base/lists.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
 #include "gearlash/tune.hpp"
 #include "input/axis_text.hpp"
+#include "input/section_reader.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/tune_report.hpp"
 #include "question/axis.hpp"
@@ -64,6 +66,11 @@ void read_numbers(const TuneOptions& options, TuneTask& task, TuneEffort& effort
   task.least_phase_margin = faults.collect(
       [&] { return read_measured("--phase-margin", options.phase_margin, dimensions::angle).si; },
       task.least_phase_margin);
+  constexpr double right_angle = 0.5 * std::numbers::pi;
+  if (!(task.least_phase_margin >= 0.0 && task.least_phase_margin <= right_angle)) {
+    faults.add("--phase-margin", shown(options.phase_margin),
+               "must be an angle from 0 to 90 deg, with its unit");
+  }
   constexpr std::size_t most_units = 100'000;
   effort.units = collect_whole("--units", options.units, 1, most_units, faults);
   effort.seed = collect_whole("--seed", options.seed, 0, std::uint64_t{1} << 53U, faults);

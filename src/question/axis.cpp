@@ -93,7 +93,7 @@ Axis spaced_axis(std::string_view field, std::string path, double from, double t
            "must be from 1 to " + std::to_string(most_values_on_an_axis));
   }
   if ((count == 1) != (from == to)) {
-    refuse(field, std::to_string(count) + " values from " + ends,
+    refuse(field, std::to_string(count) + (count == 1 ? " value from " : " values from ") + ends,
            "must be two or more between different ends, or one where they are the same");
   }
   Axis axis{std::move(path), {}, is_logarithmic};

@@ -311,5 +311,20 @@ TEST(DesignCommand, CutsRangesToWhatIsPermitted) {
   EXPECT_THAT(refused.err, HasSubstr("servo.friction_ratio must be from 0 to 1"));
 }
 
+TEST(DesignCommand, SearchesAGapFromWhereItIsPermitted) {
+  // A rigid gap of 0 is no drive that can be searched; the search begins beyond it.
+  const Outcome run = run_tool({"design", "examples/symptoms/joint.toml", "--sensor", "motor",
+                                "--target", "settling-time <= 200 ms", "--parameters",
+                                "gearbox.backlash=0 arcmin:10 arcmin:3"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.err,
+              testing::StartsWith("gearlash: --parameters gearbox.backlash: left out: 0 "));
+  EXPECT_THAT(run.out, HasSubstr("5 arcmin to 10 arcmin"));
+  const Outcome usual =
+      run_tool({"design", "examples/symptoms/joint.toml", "--sensor", "motor", "--target",
+                "settling-time <= 200 ms", "--parameters", "gearbox.backlash"});
+  EXPECT_EQ(usual.status, 0) << usual.err;
+}
+
 }  // namespace
 }  // namespace gearlash::design_command_test
