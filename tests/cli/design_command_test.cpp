@@ -98,7 +98,7 @@ TEST(EdgeDesignCommand, PicturesThatCannotBeDrawnAreRefused) {
   };
   EXPECT_THAT(
       faults_of({"--vary", "backlash,backlash", "--plot", "region=a.txt", "--quantity", "money"}),
-      ElementsAre(StartsWith("gearlash: --vary = 2 names: must be two different"),
+      ElementsAre(StartsWith("gearlash: --vary = backlash, backlash: must be two"),
                   StartsWith("gearlash: --plot = a.txt: must"),
                   StartsWith("gearlash: --quantity = money: must be ")));
   EXPECT_THAT(faults_of({"--vary", "backlash,load.colour", "--plot", "region=a.svg"}),
