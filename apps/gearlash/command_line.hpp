@@ -43,9 +43,10 @@ class Command {
   Command(const std::string& name, const std::string& description, const std::string& version_text);
 
   Command add_subcommand(const std::string& name, const std::string& description) const;
+  /// The heading under which the help lists the subcommands that are added from now on.
+  void begin_group(const std::string& heading) const;
   /// `name`: "--step ANGLE", the option and what the help shows for its value; without leading
-  /// dashes it is a positional argument. The help is broken into lines. `value`: a string, an
-  /// optional one, or a list of them.
+  /// dashes it is a positional argument. `value`: a string, an optional one, or a list of them.
   template <class Value>
   Option add_option(const std::string& name, Value& value, const std::string& help,
                     const OptionRules& rules = {}) const;
@@ -62,10 +63,10 @@ class Command {
   /// A text to print instead of running a command.
   struct Message {
     std::string text;
-    bool is_fault = false;  ///< one line; else the help or the version
+    bool is_fault = false;  ///< a line for each; else the help or the version
   };
   /// Reads the words of a command line, the tool's name left out. Throws InvalidInput where a
-  /// subcommand is missing or unknown.
+  /// subcommand is missing or unknown. The lines of the help are not wrapped.
   std::optional<Message> parse(std::vector<std::string> words) const;
 
  private:

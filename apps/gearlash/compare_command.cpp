@@ -101,6 +101,8 @@ void read_values(const CompareOptions& options, const std::vector<FileUse>& outp
                    "; gearlash chart has room for more");
   }
   faults.require_none();
+  const std::string left_out = cut_to_sound(axis, drive);
+  if (!left_out.empty()) report_lines(text.field + " " + axis.path + ": left out: " + left_out);
   task.drives = drives_along(axis, drive, written->angle);
   task.report.angles.assign(task.drives.size(), written->angle);
   task.report.axis = std::move(axis);
@@ -110,6 +112,12 @@ CompareTask read_compare_task(const CompareOptions& options, const std::vector<P
                               Faults& faults) {
   CompareTask task;
   faults.require_choice("--format", options.format, {"text", "json"});
+  if (options.brief) {
+    faults.refuse_beside_brief(
+        {{"--quantities", listed(options.quantities)},
+         {"--until", options.plots.empty() ? options.until.value_or("") : ""},
+         {"--format", options.format == "text" ? "" : options.format}});
+  }
   if (options.until) task.how.until = read_time("--until", *options.until, faults);
   if (!options.quantities.empty()) {
     task.report.quantities = read_quantities(options.quantities, faults);
@@ -124,7 +132,7 @@ CompareTask read_compare_task(const CompareOptions& options, const std::vector<P
 
 std::string printed(const ComparisonReport& report, const CompareOptions& options) {
   if (options.format == "json") return comparison_json(report);
-  return options.brief ? comparison_headlines(report) : comparison_text(report);
+  return fitted_to_output(options.brief ? comparison_headlines(report) : comparison_text(report));
 }
 
 ExitStatus run(const CompareOptions& options, const Provenance& provenance) {

@@ -15,7 +15,7 @@ constexpr char describe_examples[] =
     "  gearlash describe examples/normalized.toml --format json | jq .analyses[].cycles\n";
 
 constexpr char describe_explanation[] =
-    "A cycle is predicted where the loop's gain meets -1/N(A). N is the gain of a nonlinearity\n"
+    "A cycle is predicted where the loop's gain meets -1/N(A). N is the gain of a nonlinearity "
     "for a sine of amplitude A. Each nonlinearity is described by itself, without the others.\n\n";
 
 struct DescribeOptions : QuestionOptions {

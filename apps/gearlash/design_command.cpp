@@ -6,6 +6,7 @@
 #include "base/lists.hpp"
 #include "grid_options.hpp"
 #include "input/axis_text.hpp"
+#include "input/section_reader.hpp"
 #include "output/design_report.hpp"
 #include "picture/grid_map.hpp"
 #include "question/axis.hpp"
@@ -115,7 +116,7 @@ void check_options(const DesignOptions& options, Faults& faults) {
                    : Fault{"--vary", "", "must name the two parameters of the picture"});
   }
   if (!options.vary.empty() && !are_two(options.vary)) {
-    faults.add("--vary", std::to_string(options.vary.size()) + " names",
+    faults.add("--vary", shown(listed(options.vary)),
                "must be two different parameters, separated by a comma");
   }
 }
@@ -123,7 +124,7 @@ void check_options(const DesignOptions& options, Faults& faults) {
 std::vector<Axis> read_axes(const DesignOptions& options, const Drive& drive, Faults& faults) {
   std::vector<std::string> texts = options.parameters.empty() ? options.vary : options.parameters;
   if (texts.empty()) texts = usual_parameters(drive);
-  return collect_axes("--parameters", texts, drive, read_axis_to_search, faults);
+  return collect_axes_to_search(texts, drive, faults);
 }
 
 ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
@@ -148,7 +149,8 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
   const std::size_t known = count_of(
       report.design.parameters, [](const DesignedParameter& one) { return !one.values.stopped; });
   std::optional<GridTable> table;
-  return give({.text = options.format == "json" ? design_json(report) : design_text(report),
+  return give({.text = options.format == "json" ? design_json(report)
+                                                : fitted_to_output(design_text(report)),
                .unknown = unknown_text(known, axes.size())},
               work, plots, [&](const PlotFile& plot) {
                 if (!table) table = work_out(region, work, provenance).table;
@@ -173,8 +175,8 @@ void add_design_command(const Command& app, Action& action) {
       "--parameters NAMES", options.parameters,
       "List the parameters that may change, separated by commas: any number or choice by its path, "
       "such as gearbox.ratio, or with a range, PATH=FROM:TO:COUNT[:log], with units; default those "
-      "of --vary, else those that are easiest to change. Without a range: 0.001 to 1000 times the "
-      "present value where the closed form answers, else 0.1 to 10 times",
+      "of --vary, else those that are easiest to change. Without a range: 0.1 to 10 times the "
+      "present value, of a servo as that of 1960 0.001 to 1000 times",
       {.delimiter = ','});
   command.add_option("--vary X,Y", options.vary,
                      "Choose two parameters, separated by a comma, each with or without a range; "

@@ -78,7 +78,12 @@ std::optional<WrittenDrive> read_fixed_drive(const ServoOptions& options,
     const std::size_t number = number_with(path);
     if (number < completed.numbers.size()) put_in_stand_in(completed, number);
   }
-  if (options.file.empty() && !completed.backlash()) completed.backlash() = "1";
+  if (!has_drive(completed)) return resolve_drive(completed, outputs, faults);
+  const bool has_backlash =
+      completed.backlash() || any_of(options.settings, [](const std::string& setting) {
+        return setting.starts_with("servo.backlash");
+      });
+  if (options.file.empty() && !has_backlash) completed.backlash() = "1";
   for (std::size_t i = 0; i < completed.numbers.size() && !are_all_there; ++i) {
     if (normal_form_numbers[i].path != "contact.restitution") put_in_stand_in(completed, i);
   }
@@ -158,10 +163,10 @@ void add_grid_options(const Command& command, GridOptions& options, const std::s
                      "Write this table (.csv, .json, .nc) or picture (.svg, .png, .pdf)");
   add_plot_option(command, options.plots, drawing);
   command.add_flag("--proved", options.proved,
-                   "Prove each verdict of the closed form with plastic contact by interval "
-                   "arithmetic; verdicts that it cannot prove are undecided");
-  add_servo_or_drive_options(command, options.servo);
+                   "Prove each verdict by interval arithmetic, for servos as that of 1960 with "
+                   "plastic contact; verdicts that it cannot prove are undecided");
   add_limit_options(command, options.limits);
+  add_servo_or_drive_options(command, options.servo);
 }
 
 Quantity read_quantity(const std::string& text, Faults& faults) {
@@ -240,6 +245,25 @@ GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption
   require_none(gearlash::faults(task.grid, fields));
   require_room(task.grid);
   return task;
+}
+
+std::string refused_text(const Grid& grid, const RowCount& count) {
+  std::vector<double> values(grid.axes.size());
+  for (std::size_t point = 0; point < grid.size() && count.refused > 0; ++point) {
+    std::string place;
+    for (std::size_t i = grid.axes.size(), rest = point; i-- > 0;) {
+      const Axis& axis = grid.axes[i];
+      values[i] = axis.values[rest % axis.values.size()];
+      rest /= axis.values.size();
+      place = axis.path + " = " + text_of(axis, grid.drive, values[i]) +
+              (place.empty() ? "" : ", ") + place;
+    }
+    const std::vector<Fault> found = faults(drive_with(grid.drive, grid.axes, values));
+    if (found.empty()) continue;
+    return fmt::format("{} of {} points refused, the first at {}: {}", count.refused,
+                       count.points(), place, to_string(found.front()));
+  }
+  return "";
 }
 
 std::string solved_text(const RowCount& count) {
@@ -332,6 +356,7 @@ ExitStatus make_grid_files(const GridTask& task, LimitedWork& work, const Proven
       made.push_back(shown(file.file, std::string::npos));
     });
   }
+  report_lines(refused_text(task.grid, count));
   extras.print((made.empty() ? "" : listed(made) + ": ") + solved_text(count) + "\n");
   return extras.status(status);
 }

@@ -74,6 +74,10 @@ void require_drawable(const Grid& grid, const std::vector<std::string>& fields, 
 std::optional<MapPoint> place_on_map(const Grid& grid);
 
 /// "20 servos, 18 solved side by side, 2 one by one"
+/// The first point of a grid whose drive has faults, and its fault, where any was refused: for
+/// report_lines().
+std::string refused_text(const Grid& grid, const RowCount& count);
+
 std::string solved_text(const RowCount& count);
 
 struct WorkedOut {

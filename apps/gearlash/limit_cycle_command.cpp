@@ -16,6 +16,7 @@ namespace gearlash::cli {
 namespace {
 
 constexpr char limit_cycle_examples[] =
+    "  gearlash limit-cycle examples/robot-joint.toml --brief\n"
     "  gearlash limit-cycle examples/elinco-fd162.toml --plot phase=hunting.svg\n"
     "  gearlash limit-cycle examples/elinco-fd162.toml --backlash \"12 arcmin\"\n"
     "  gearlash limit-cycle --damping 0.19 --inertia-ratio 2 --friction-ratio 1/10 --backlash 0.3\n"
@@ -72,8 +73,7 @@ Plot plot_of(const Result& result, const std::string& kind, LimitedWork& work) {
 /// The parameters of the margins; none: the usual ones.
 std::vector<Axis> read_parameters(const LimitCycleOptions& options, const Drive& drive,
                                   Faults& faults) {
-  std::vector<Axis> axes =
-      collect_axes("--parameters", options.parameters, drive, read_axis_to_search, faults);
+  std::vector<Axis> axes = collect_axes_to_search(options.parameters, drive, faults);
   if (!options.parameters.empty() && !options.margins) {
     faults.add("--parameters", options.parameters.front(), "must come with --margins");
   }
@@ -123,13 +123,20 @@ std::optional<MeasuredHunting> read_hunting(const std::string& text) {
 
 std::string printed(const Result& result, const LimitCycleOptions& options) {
   if (options.format == "json") return answer_json(result.report);
-  if (options.brief) return headline(result.report) + "\n";
-  return with_bold_headline(answer_text(result.report, options.verbose ? Detail::all : Detail::usual));
+  if (options.brief) return fitted_to_output(headline(result.report) + "\n");
+  return with_bold_headline(
+      answer_text(result.report, options.verbose ? Detail::all : Detail::usual));
 }
 
 ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
   Faults faults;
   faults.require_choice("--format", options.format, {"text", "json"});
+  if (options.brief) {
+    faults.refuse_beside_brief({{"--margins", options.margins ? "yes" : ""},
+                                {"--sensitivities", options.sensitivities ? "yes" : ""},
+                                {"--measured", options.measured},
+                                {"--format", options.format == "text" ? "" : options.format}});
+  }
   const std::vector<PlotFile> plots =
       read_plots(options.plots, {"phase", "time", "tornado", "ceiling"}, faults);
   const std::optional<WrittenDrive> written = resolve_drive(options.servo, files_of(plots), faults);
@@ -178,21 +185,18 @@ void add_limit_cycle_command(const Command& app, Action& action) {
                   "them, time=FILE, such a motion over time, tornado=FILE, the sensitivities of "
                   "the amplitude, or ceiling=FILE, what the proved bound of every motion is made "
                   "of;");
-  command.add_flag(
-      "--margins", options.margins,
-      "Add how far each parameter may change before hunting ends or begins, and all of "
-      "them together; with bounces, or without a closed form, this takes seconds to "
-      "minutes");
+  command.add_flag("--margins", options.margins,
+                   "Add how far each parameter may change before hunting ends or begins, and all "
+                   "of them together; for most drives this takes seconds to minutes");
   command.add_option("--parameters NAMES", options.parameters,
                      "List the parameters of --margins, by path, separated by commas: any number "
                      "or choice of the drive, searched from 0.1 to 10 times its present value or "
-                     "over PATH=FROM:TO:COUNT[:log]; default those of design, and of drives "
-                     "without a closed form the backlash and the controller's numbers",
+                     "over PATH=FROM:TO:COUNT[:log]; default the backlash and the controller's "
+                     "numbers, of a servo as that of 1960 those of design",
                      {.delimiter = ','});
-  command.add_flag(
-      "--sensitivities", options.sensitivities,
-      "Add sensitivities to every parameter, in per cent for one per cent; of searched "
-      "drives for a continuous controller without encoder");
+  command.add_flag("--sensitivities", options.sensitivities,
+                   "Add sensitivities to every parameter, in per cent for one per cent; not for a "
+                   "sampled controller or an encoder");
 }
 
 }  // namespace gearlash::cli

@@ -7,22 +7,38 @@
 #include <new>
 
 #include "gearlash/version.hpp"
+#include "output/columns.hpp"
 #include "verb.hpp"
 
 namespace gearlash::cli {
 namespace {
 
 constexpr char description[] =
-    "Report whether a geared servo with backlash hunts (limit-cycles), with which amplitude and\n"
+    "Report whether a geared servo with backlash hunts (limit-cycles), with which amplitude and "
     "frequency, and what must change to stop it.\n";
 
 constexpr char examples[] =
-    "  gearlash limit-cycle examples/elinco-fd162.toml --plot phase=hunting.svg\n"
-    "  gearlash simulate examples/elinco-fd162.toml --plot time=step.svg > step.csv\n"
-    "  gearlash motor examples/elinco-fd162.toml\n"
-    "  gearlash map --x friction-ratio=0:1:100 --y damping=0.02:0.8:100 --inertia-ratio 2 \\\n"
-    "      --output map.svg\n"
+    "  gearlash limit-cycle examples/robot-joint.toml --brief\n"
+    "  gearlash limit-cycle examples/robot-joint.toml --specification \"10 arcmin\"\n"
+    "  gearlash simulate examples/robot-joint.toml --plot time=step.svg > step.csv\n"
+    "  gearlash design examples/robot-joint.toml --target no-hunting --time-limit \"30 s\"\n"
+    "  gearlash chart examples/robot-joint.toml --x gearbox.backlash=0.5deg:4deg:8 --output "
+    "chart.svg\n"
     "  gearlash help limit-cycle\n";
+
+struct VerbGroup {
+  const char* heading;
+  std::vector<AddVerb*> verbs;
+};
+
+const VerbGroup verb_groups[] = {
+    {"Ask what a drive does",
+     {add_limit_cycle_command, add_simulate_command, add_describe_command, add_compare_command}},
+    {"Find what to change", {add_design_command, add_tune_command, add_tolerance_command}},
+    {"Draw and tabulate",
+     {add_map_command, add_chart_command, add_sweep_command, add_explore_command}},
+    {"Show the numbers of a drive", {add_show_command, add_motor_command}},
+    {"The thesis of 1960", {add_thesis_command}}};
 
 extern "C" void remove_outputs_and_die(int signal_number) {
   remove_unfinished_outputs();
@@ -61,12 +77,9 @@ ExitStatus parse_and_run(int argument_count, char** arguments) {
   Command app("gearlash", description, std::string("gearlash ") + version);
   Action action;
   app.footer(help_footer(examples));
-  for (AddVerb* add :
-       {add_limit_cycle_command, add_simulate_command, add_design_command, add_tune_command,
-        add_tolerance_command, add_compare_command, add_describe_command, add_motor_command,
-        add_chart_command, add_map_command, add_sweep_command, add_show_command,
-        add_explore_command, add_thesis_command}) {
-    add(app, action);
+  for (const VerbGroup& group : verb_groups) {
+    app.begin_group(group.heading);
+    for (AddVerb* add : group.verbs) add(app, action);
   }
   const std::vector<std::string> words(arguments + std::min(argument_count, 1),
                                        arguments + argument_count);
@@ -76,7 +89,8 @@ ExitStatus parse_and_run(int argument_count, char** arguments) {
     return ExitStatus::bad_input;
   }
   if (message) {
-    write_file("-", message->text);
+    constexpr std::size_t usual_columns_of_help = 103;
+    write_file("-", fitted(message->text, columns_of_output().value_or(usual_columns_of_help)));
     return ExitStatus::done;
   }
   return action({typed_command(words), version});

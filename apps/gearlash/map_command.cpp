@@ -48,8 +48,8 @@ void add_map_command(const Command& app, Action& action) {
                      "tables: no-hunting, \"amplitude <= 1 deg and bandwidth >= 3 Hz\", … as of "
                      "gearlash design");
   add_grid_options(command, options.grid,
-                   "Draw map=FILE, contours of the quantity, or its value at each point if drives "
-                   "are searched;");
+                   "Draw map=FILE, contours of the quantity, or of other drives than servos as "
+                   "that of 1960 its value at each point;");
 }
 
 }  // namespace gearlash::cli

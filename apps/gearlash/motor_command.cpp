@@ -1,4 +1,4 @@
-// gearlash motor: from the data sheet to the numbers of the charts, step by step.
+// gearlash motor: from the data sheet to the numbers of the charts of 1960, step by step.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -269,7 +269,7 @@ ExitStatus run(const ServoOptions& options, const Provenance&) {
   // With --set the texts of the file no longer apply.
   std::map<std::string, std::string> texts;
   if (options.settings.empty()) texts = written->texts;
-  write_file("-", motor_procedure(written->drive, written->angle, texts));
+  write_file("-", fitted_to_output(motor_procedure(written->drive, written->angle, texts)));
   return ExitStatus::done;
 }
 
@@ -277,7 +277,8 @@ ExitStatus run(const ServoOptions& options, const Provenance&) {
 
 void add_motor_command(const Command& app, Action& action) {
   const auto [command, options] = add_verb<ServoOptions>(
-      app, action, "motor", "Convert a data sheet to the numbers of the charts, step by step",
+      app, action, "motor",
+      "Convert a data sheet to the numbers of the charts of 1960, step by step",
       help_footer(motor_examples), run);
   command.add_option("DRIVE.toml", options.file,
                      "Read this data sheet (docs/reference/data-sheets.md)", {.is_required = true});

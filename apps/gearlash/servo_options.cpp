@@ -13,12 +13,14 @@
 #include "model/reduced_drive.hpp"
 #include "output/output_file.hpp"
 #include "question/analyse.hpp"
+#include "question/axis.hpp"
 #include "verb.hpp"
 
 namespace gearlash::cli {
 namespace {
 
-constexpr char servo_group[] = "Servo";
+constexpr char drive_group[] = "Drive";
+constexpr char servo_group[] = "Servo of 1960, without a file";
 
 /// The help and the type of an option for each of normal_form_numbers, which describe a servo
 /// without a file.
@@ -26,8 +28,9 @@ constexpr std::pair<const char*, const char*> number_options[] = {
     {"Set the damping ratio: 0, or 1e-15 to 1000", "NUMBER"},
     {"Set the inertia ratio, load to motor: 0 to inf", "NUMBER"},
     {"Set the friction ratio, load to total: 0 to 1", "NUMBER"},
-    {"Set the backlash at the load, face to face: \"12 arcmin\"; in rad if it is bare, without a "
-     "file",
+    {"Set the backlash at the load, face to face, also of a file's drive: \"12 arcmin\"; of a "
+     "normal "
+     "form a bare number is in rad",
      "ANGLE"},
     {"Set the restitution: 0 (plastic, the default) to 1 (elastic)", "NUMBER"}};
 
@@ -114,23 +117,23 @@ void add_set_option(const Command& command, ServoOptions& options) {
   command.add_option("--set PATH=VALUE", options.settings,
                      "Set any parameter of the drive by its path, with its unit: "
                      "gearbox.backlash=\"12 arcmin\"; repeatable; gearlash show lists the paths",
-                     {.group = servo_group, .takes_one_word = true});
+                     {.group = drive_group, .takes_one_word = true});
 }
 
 void add_drive_options(const Command& command, ServoOptions& options,
                        const std::string& sensor_help) {
+  add_set_option(command, options);
+  command.add_option("--sensor SHAFT", options.sensor, sensor_help, {.group = drive_group});
+  for (std::size_t i = 0; i < options.asked.size(); ++i) {
+    const SpecificationOption& option = specification_options[i];
+    command.add_option(std::string(option.name) + " ANGLE", options.asked[i], option.help,
+                       {.group = drive_group});
+  }
   for (std::size_t i = 0; i < options.numbers.size(); ++i) {
     const auto& [help, type] = number_options[i];
     const std::string name = option_name(normal_form_numbers[i].name) + " " + type;
     command.add_option(name, options.numbers[i], help, {.group = servo_group});
   }
-  command.add_option("--sensor SHAFT", options.sensor, sensor_help, {.group = servo_group});
-  for (std::size_t i = 0; i < options.asked.size(); ++i) {
-    const SpecificationOption& option = specification_options[i];
-    command.add_option(std::string(option.name) + " ANGLE", options.asked[i], option.help,
-                       {.group = servo_group});
-  }
-  add_set_option(command, options);
 }
 
 namespace {
@@ -183,7 +186,14 @@ void Faults::add(Fault fault) {
 void Faults::require_choice(const std::string& field, const std::string& value,
                             const std::vector<std::string>& choices) {
   if (contains(choices, value)) return;
-  add(field, shown(value), "must be " + alternatives(choices));
+  add(field, shown(value), "must be " + alternatives(choices) + guess_of(choices, value));
+}
+
+void Faults::refuse_beside_brief(const std::vector<std::pair<const char*, std::string>>& options) {
+  for (const auto& [option, value] : options) {
+    if (value.empty()) continue;
+    add(option, shown(value), "must be left out, or --brief, which prints the headline alone");
+  }
 }
 
 void Faults::require_distinct(std::vector<FileUse> others, const std::vector<FileUse>& outputs) {
@@ -193,7 +203,8 @@ void Faults::require_distinct(std::vector<FileUse> others, const std::vector<Fil
         others, [&](const FileUse& other) { return is_same_file(output.file, other.file); });
     if (same != nullptr) {
       add(output.use, shown(output.file),
-          "must not be the file of " + same->use + ", " + shown(same->file));
+          std::string("must not be the file of ") + (same->use == output.use ? "another " : "") +
+              same->use + ", " + shown(same->file));
     }
     others.push_back(output);
   }
@@ -263,23 +274,6 @@ std::vector<Fault> named_as_typed(std::vector<Fault> faults, const ServoOptions&
   return faults;
 }
 
-/// A backlash that an option and --set give differently.
-std::vector<Fault> contradictions(const std::vector<Setting>& options,
-                                  const std::vector<Setting>& settings) {
-  std::vector<Fault> found;
-  for (const Setting& option : options) {
-    for (const Setting& setting : settings) {
-      const bool is_it = option.path.ends_with("backlash") &&
-                         find_parameter(setting.path) == find_parameter(option.path);
-      if (!is_it || setting.text == option.text) continue;
-      found.push_back({option.path, option.text,
-                       "must not stand beside --set " + setting.path + "=" + shown(setting.text) +
-                           ": give one of them"});
-    }
-  }
-  return found;
-}
-
 /// The normal form of a drive with the numbers changed by options. The natural frequency stays.
 WrittenDrive changed_normal_form(const WrittenDrive& written, const ServoOptions& options) {
   const std::optional<Drive> form = normal_form_of(written.drive);
@@ -313,7 +307,6 @@ WrittenDrive read_drive_as_typed(const ServoOptions& options, std::vector<Settin
     for (const TypedNumber& typed : typed_numbers(options)) {
       if (is_form || !is_ratio(typed.number)) numbers.push_back(setting_of(typed, is_form));
     }
-    require_none(contradictions(numbers, settings));
     // The last one holds: --set changes a servo of options, which change the drive of a file.
     const auto place = options.file.empty() ? settings.begin() : settings.end();
     settings.insert(place, numbers.begin(), numbers.end());
@@ -351,6 +344,18 @@ std::vector<Axis> collect_axes(const char* field, const std::vector<std::string>
   return collect_axes(texts, read_one, faults);
 }
 
+std::vector<Axis> collect_axes_to_search(const std::vector<std::string>& texts, const Drive& drive,
+                                         Faults& faults) {
+  std::vector<Axis> axes = collect_axes("--parameters", texts, drive, read_axis_to_search, faults);
+  for (Axis axis : axes) {
+    const bool is_typed =
+        any_of(texts, [&](const std::string& text) { return text.starts_with(axis.path + "="); });
+    const std::string unsound = is_typed ? cut_to_sound(axis, drive) : "";
+    if (!unsound.empty()) report_lines("--parameters " + axis.path + ": left out: " + unsound);
+  }
+  return axes;
+}
+
 double read_time(const char* field, const std::string& text, Faults& faults) {
   const auto read = [&] { return read_measured(field, text, dimensions::time).si; };
   const double time = faults.collect(read, 1.0);
@@ -368,6 +373,26 @@ double read_share(const char* field, const std::string& text, Faults& faults) {
 
 namespace {
 
+/// Options whose parameter --set gives too.
+void refuse_given_twice(const ServoOptions& options, Faults& faults) {
+  const auto check = [&](const std::string& option, const std::optional<std::string>& typed,
+                         const std::vector<std::string_view>& paths) {
+    for (const std::string& setting : options.settings) {
+      const bool is_same = contains(paths, trimmed(setting.substr(0, setting.find('='))));
+      if (!typed || !is_same) continue;
+      faults.add(option, shown(*typed), "must be left out, or --set " + shown(setting));
+    }
+  };
+  for (std::size_t i = 0; i < options.numbers.size(); ++i) {
+    const NormalFormNumber& number = normal_form_numbers[i];
+    check(option_name(number.name), options.numbers[i], {number.path, path_of(number, false)});
+  }
+  for (std::size_t i = 0; i < options.asked.size(); ++i) {
+    check(specification_options[i].name, options.asked[i], {specification_options[i].path});
+  }
+  check("--sensor", options.sensor, {"sensor.position"});
+}
+
 std::optional<WrittenDrive> read_drive_or_faults(const ServoOptions& options, Faults& faults) {
   try {
     return read_drive_as_typed(options, settings_of(options, faults));
@@ -379,8 +404,20 @@ std::optional<WrittenDrive> read_drive_or_faults(const ServoOptions& options, Fa
 
 }  // namespace
 
+bool has_drive(const ServoOptions& options) {
+  return !options.file.empty() || !options.settings.empty() || !typed_numbers(options).empty();
+}
+
 std::optional<WrittenDrive> resolve_drive(const ServoOptions& options,
                                           const std::vector<FileUse>& outputs, Faults& faults) {
+  if (!has_drive(options)) {
+    faults.add("DRIVE.toml", "",
+               "must be a drive's file, such as examples/robot-joint.toml; or give --damping, "
+               "--inertia-ratio, --friction-ratio and --backlash of a normal form");
+    faults.require_writable(outputs);
+    return std::nullopt;
+  }
+  refuse_given_twice(options, faults);
   std::optional<WrittenDrive> written = read_drive_or_faults(options, faults);
   std::vector<FileUse> inputs;
   if (written) inputs = named_tables(written->drive, options.file);
@@ -394,7 +431,7 @@ std::optional<WrittenDrive> resolve_drive(const ServoOptions& options,
 ProportionalServo servo_of_1960(const WrittenDrive& written, const ServoOptions& options) {
   if (const auto servo = settled_servo(written.drive)) return *servo;
   throw InvalidInput(
-      {{"drive", "without a closed form", permitted_with_servo, shown(options.file)}});
+      {{"drive", "not a servo as that of 1960", permitted_with_servo, shown(options.file)}});
 }
 
 }  // namespace gearlash::cli

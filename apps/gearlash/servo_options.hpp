@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "command_line.hpp"
@@ -79,6 +80,8 @@ class Faults {
   /// `value` if it is one of `choices`, else a fault of `field`.
   void require_choice(const std::string& field, const std::string& value,
                       const std::vector<std::string>& choices);
+  /// Adds a fault for each option that is given, with its value: --brief would drop it.
+  void refuse_beside_brief(const std::vector<std::pair<const char*, std::string>>& options);
   /// Adds a fault for each output that is the same file as one of `others`, which are read, or as
   /// another output, because one would be lost. Empty names, "-" and devices are exempt.
   void require_distinct(std::vector<FileUse> others, const std::vector<FileUse>& outputs);
@@ -117,11 +120,19 @@ std::vector<Axis> collect_axes(const std::vector<Text>& texts, const Read& read,
 std::vector<Axis> collect_axes(const char* field, const std::vector<std::string>& texts,
                                const Drive& drive, AxisReader read, Faults& faults);
 
+/// Those that --parameters names for a search; a line on standard error for each that has values
+/// with which the drive would have faults: the search begins where it has none.
+std::vector<Axis> collect_axes_to_search(const std::vector<std::string>& texts, const Drive& drive,
+                                         Faults& faults);
+
 /// A positive time of an option, in s or with its unit; a fault otherwise.
 double read_time(const char* field, const std::string& text, Faults& faults);
 
 /// A share above 0 and up to 1, "95 %" or 0.95; a fault otherwise, and 0.5.
 double read_share(const char* field, const std::string& text, Faults& faults);
+
+/// Whether a file or options describe a drive.
+bool has_drive(const ServoOptions& options);
 
 /// The drive as its user has it: the file, or the normal form of the options, with the settings of
 /// --set. Adds faults to `faults`, also those of `outputs`: Faults::require_distinct() beside every

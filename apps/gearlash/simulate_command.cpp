@@ -295,7 +295,6 @@ void add_simulate_command(const Command& app, Action& action) {
   const auto [command, options] = add_verb<SimulateOptions>(
       app, action, "simulate", "Compute the exact motion after a step or a disturbance",
       help_footer(simulate_examples), run);
-  add_servo_or_drive_options(command, options.servo);
   const OptionRules rules{.group =
                               "Motion (in rad, s and rad/s, or with a unit: \"50 ms\", \"3 rpm\")"};
   for (const MotionOption& option : motion_options) {
@@ -311,6 +310,7 @@ void add_simulate_command(const Command& app, Action& action) {
   command.add_option("--output FILE", options.output,
                      "Write the table to this file; default standard output");
   add_limit_options(command, options.limits);
+  add_servo_or_drive_options(command, options.servo);
 }
 
 }  // namespace gearlash::cli

@@ -24,9 +24,9 @@ constexpr char sweep_explanation[] =
     "  quantities = [\"amplitude\", \"period\"]   # all if left out\n"
     "  [servo]\n"
     "  friction_ratio = 0.1          # without backlash, amplitudes are in backlashes\n\n"
-    "During the sweep FILE.part holds the results so far, and FILE.part.json their number.\n"
-    "Both remain for --resume if the sweep is stopped or killed. FILE appears when it is\n"
-    "complete. A sweep has at most 1,000,000,000 points. gearlash.distributed, in Python, goes\n"
+    "During the sweep FILE.part holds the results so far, and FILE.part.json their number. "
+    "Both remain for --resume if the sweep is stopped or killed. FILE appears when it is "
+    "complete. A sweep has at most 1,000,000,000 points. gearlash.distributed, in Python, goes "
     "past that, and past one machine.\n\n";
 
 struct SweepOptions {
@@ -81,6 +81,7 @@ ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
     work.end();
     return ExitStatus::undecided;
   }
+  report_lines(refused_text(sweep.grid, done));
   write_file("-", shown(options.output, std::string::npos) + ": " + solved_text(done) + "\n");
   return ExitStatus::done;
 }

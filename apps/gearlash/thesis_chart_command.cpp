@@ -146,7 +146,7 @@ ExitStatus read_charts(const ServoOptions& typed, const Provenance&) {
   const std::optional<WrittenDrive> written = resolve_charted_drive(typed, faults);
   faults.require_none();
   const NormalizedServo servo = servo_of_1960(*written, typed).servo;
-  write_file("-", chart_reading_text(servo, thesis::read_chart(servo)));
+  write_file("-", fitted_to_output(chart_reading_text(servo, thesis::read_chart(servo))));
   return ExitStatus::done;
 }
 
@@ -168,10 +168,11 @@ ExitStatus draw_extension(const ExtensionOptions& typed, const Provenance&) {
       std::stoi(typed.number), TerminalProgress(work, "Extension " + typed.number).as_argument());
   std::vector<PlotFile> pictures;
   if (!work.is_stopped()) pictures.push_back(file);
-  return give({.text = wrapped(fmt::format("{}. {}", extension.number, extension.wish)) + "\n" +
-                       wrapped(extension.lesson),
-               .unknown = "the chart is not drawn"},
-              work, pictures, [&](const PlotFile&) { return extension.plot; });
+  return give(
+      {.text = fitted_to_output(wrapped(fmt::format("{}. {}", extension.number, extension.wish)) +
+                                "\n" + wrapped(extension.lesson)),
+       .unknown = "the chart is not drawn"},
+      work, pictures, [&](const PlotFile&) { return extension.plot; });
 }
 
 }  // namespace

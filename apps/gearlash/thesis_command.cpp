@@ -12,7 +12,7 @@ constexpr char thesis_examples[] =
 }  // namespace
 
 std::optional<WrittenDrive> resolve_charted_drive(ServoOptions typed, Faults& faults) {
-  if (typed.file.empty() && !typed.backlash()) typed.backlash() = "0.3";
+  if (has_drive(typed) && typed.file.empty() && !typed.backlash()) typed.backlash() = "0.3";
   return resolve_drive(typed, {}, faults);
 }
 

@@ -113,7 +113,8 @@ ToleranceRequest read_task(const ToleranceOptions& options) {
   read_amplitude(options, is_searched, task, faults);
   read_questions(options, written ? &written->drive : nullptr, task, faults);
   if (is_searched && !options.yield.empty()) {
-    faults.add("--yield", options.yield, permitted_with_servo);
+    faults.add("--yield", options.yield,
+               std::string("must be left out: for it a drive ") + permitted_with_servo);
   }
   task.limits = read_limits(options.limits, faults);
   faults.require_none();
@@ -185,7 +186,8 @@ ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
                          .provenance = provenance};
   work_out(task, work, report);
   report.stopped = work.is_stopped();
-  return give({.text = options.format == "json" ? tolerance_json(report) : tolerance_text(report),
+  return give({.text = options.format == "json" ? tolerance_json(report)
+                                                : fitted_to_output(tolerance_text(report)),
                .unknown = unknown_text(report)},
               work, task.plots, [&](const PlotFile& plot) {
                 if (report.sensitivities.numbers.empty()) refuse_to_draw(plot);
@@ -200,18 +202,15 @@ void add_tolerance_command(const Command& app, Action& action) {
       app, action, "tolerance", "Predict how many samples of a production run hunt, and why",
       tolerance_explanation + help_footer(tolerance_examples), run);
   add_servo_or_drive_options(command, options.servo);
-  command.add_option(
-      "--samples N", options.samples,
-      "Set the least number of samples, rounded up to 16 times a power of two; default "
-      "65536, with bounces, of the motor, or for a target of other quantities than "
-      "amplitude, frequency and growth at rest 512, of a drive that is searched 64; at "
-      "most 16777216, for every sample is kept");
+  command.add_option("--samples N", options.samples,
+                     "Set the least number of samples, rounded up to 16 times a power of two; at "
+                     "most 16777216; default 65536, 512 or 64, fewer the longer a sample takes");
   command.add_option("--error SHARE", options.error,
                      "Take as many samples as the probability of hunting and the yield need to be "
                      "known to within this share: \"1 %\"");
   command.add_option("--amplitude SHAFT", options.amplitude,
-                     "Choose whose amplitude is reported: load, or motor; default load, of a drive "
-                     "that is searched motor");
+                     "Choose whose amplitude is reported: load, or motor; default load for a servo "
+                     "as that of 1960, motor for any other drive");
   command.add_option("--seed N", options.seed, "Set the seed of the random shifts; default 1960");
   command.add_option("--target TARGET", options.target,
                      "Report the yield of this target, written as for design");

@@ -1,10 +1,12 @@
 // gearlash tune: the best values of several parameters for a whole series.
+#include <numbers>
 
 #include "base/lists.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
 #include "gearlash/tune.hpp"
 #include "input/axis_text.hpp"
+#include "input/section_reader.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/tune_report.hpp"
 #include "question/axis.hpp"
@@ -22,10 +24,9 @@ constexpr char tune_examples[] =
 
 constexpr char tune_explanation[] =
     "The series is what the tolerances of DRIVE.toml permit (gearlash tolerance --help shows how "
-    "to\n"
-    "write them); without tolerances it is the one drive. The target, if none is given, is to come "
-    "to\n"
-    "rest, or to hunt by no more than one step of the encoder.\n\n";
+    "to write them); without tolerances it is the one drive. The target, if none is given, is to "
+    "come "
+    "to rest, or to hunt by no more than one step of the encoder.\n\n";
 
 struct TuneOptions : QuestionOptions {
   std::vector<std::string> parameters;
@@ -65,6 +66,11 @@ void read_numbers(const TuneOptions& options, TuneTask& task, TuneEffort& effort
   task.least_phase_margin = faults.collect(
       [&] { return read_measured("--phase-margin", options.phase_margin, dimensions::angle).si; },
       task.least_phase_margin);
+  constexpr double right_angle = 0.5 * std::numbers::pi;
+  if (!(task.least_phase_margin >= 0.0 && task.least_phase_margin <= right_angle)) {
+    faults.add("--phase-margin", shown(options.phase_margin),
+               "must be an angle from 0 to 90 deg, with its unit");
+  }
   constexpr std::size_t most_units = 100'000;
   effort.units = collect_whole("--units", options.units, 1, most_units, faults);
   effort.seed = collect_whole("--seed", options.seed, 0, std::uint64_t{1} << 53U, faults);
@@ -120,13 +126,14 @@ ExitStatus run(const TuneOptions& options, const Provenance& provenance) {
     report.present = analyse(report.task.series.nominal, {.proofs = false}, progress);
     report.nominal = analyse(report.tuned.drive, {.proofs = false}, progress);
   }
-  return give({.text = options.format == "json" ? tune_json(report) : tune_text(report),
-               .unknown = report.tuned.stopped ? "the values are the best by then"
-                                               : "what these values do is not"},
-              work, [&](Extras& extras) {
-                if (options.write.empty()) return;
-                extras.make([&] { write_file(options.write, tuned_toml(report)); });
-              });
+  return give(
+      {.text = options.format == "json" ? tune_json(report) : fitted_to_output(tune_text(report)),
+       .unknown = report.tuned.stopped ? "the values are the best by then"
+                                       : "what these values do is not"},
+      work, [&](Extras& extras) {
+        if (options.write.empty()) return;
+        extras.make([&] { write_file(options.write, tuned_toml(report)); });
+      });
 }
 
 }  // namespace

@@ -45,8 +45,8 @@ std::string help_footer(const std::string& examples) {
          "  0  done, whether the drive hunts or not\n"
          "  1  undecided, or stopped by a limit; the results so far are printed\n"
          "  2  bad input; standard error has one line per fault\n"
-         "  3  the machine failed: output, memory, threads or gnuplot; an answer that\n"
-         "     exists is still printed\n"
+         "  3  the machine failed: output, memory, threads or gnuplot; an answer that exists is "
+         "still printed\n"
          "  130, 143  ended by Ctrl-C or SIGTERM\n\n"
          "Examples:\n" +
          examples.substr(0, examples.find_last_not_of('\n') + 1);

@@ -1,6 +1,7 @@
 #include "work.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include <utility>
 
 #include "gearlash/analyse.hpp"
+#include "output/columns.hpp"
 #include "output/report_units.hpp"
 
 namespace gearlash::cli {
@@ -131,10 +133,29 @@ bool takes_escapes(int descriptor) {
 
 }  // namespace
 
+std::optional<std::size_t> columns_of_output() {
+  constexpr std::size_t least = 40;
+  constexpr std::size_t most = 160;
+  std::size_t columns = 0;
+  winsize window{};
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0) columns = window.ws_col;
+  const char* variable = std::getenv("COLUMNS");
+  if (columns == 0 && variable != nullptr) columns = std::strtoul(variable, nullptr, 10);
+  return columns > 0 ? std::optional(std::clamp(columns, least, most)) : std::nullopt;
+}
+
+std::string fitted_to_output(const std::string& text) {
+  const std::optional<std::size_t> columns = columns_of_output();
+  return columns ? fitted(text, *columns) : text;
+}
+
 std::string with_bold_headline(const std::string& text) {
-  if (!takes_escapes(STDOUT_FILENO)) return text;
-  const std::size_t end = text.find('\n');
-  return "\x1b[1m" + text.substr(0, end) + "\x1b[0m" + text.substr(end);
+  if (!takes_escapes(STDOUT_FILENO)) return fitted_to_output(text);
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  std::string headline = fitted_to_output(text.substr(0, end));
+  if (headline.ends_with('\n')) headline.pop_back();
+  return "\x1b[1m" + headline + "\x1b[0m" + text.substr(end, 1) +
+         fitted_to_output(text.substr(std::min(end + 1, text.size())));
 }
 
 std::string progress_text(double share, double seconds, double things, const std::string& name,

@@ -62,8 +62,15 @@ class LimitedWork {
   std::string why_;
 };
 
-/// `text` with its first line in bold where standard output is a terminal; as it is elsewhere, or
-/// with NO_COLOR set.
+/// The width of standard output if it is a terminal, else COLUMNS, from 40 to 160; empty where
+/// neither is known.
+std::optional<std::size_t> columns_of_output();
+
+/// The text of a report fitted() to that width; as it is where there is none.
+std::string fitted_to_output(const std::string& text);
+
+/// The same with its first line in bold where standard output is a terminal and NO_COLOR is not
+/// set.
 std::string with_bold_headline(const std::string& text);
 
 /// "42 %, 3.1 million servos/s, 12 s left": the share of the work done, the rate in things per

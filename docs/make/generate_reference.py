@@ -44,10 +44,9 @@ def help_of(tool, *verb):
 
 
 def verbs_in(text):
-    """The names under "Subcommands:"."""
-    block = re.search(r"^Subcommands:\n((?:  .*\n)+)", text + "\n", re.MULTILINE)
-    names = re.findall(r"^  (\S+)", block.group(1), re.MULTILINE) if block else []
-    return [name for name in names if name != "help"]
+    """The names that the help lists, under several headings, if the usage asks for a verb."""
+    lists = text.partition("\nExit status:")[0] if " VERB\n" in text else ""
+    return re.findall(r"^  ([a-z][a-z0-9-]*)  ", lists, re.MULTILINE)
 
 
 def help_block(tool, *verb):

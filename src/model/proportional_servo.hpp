@@ -29,8 +29,8 @@ NormalizedServo servo_with_restitution(const NormalForm& form, double restitutio
 
 /// The conditions above, for faults.
 inline constexpr char permitted_with_servo[] =
-    "must have a closed-form answer for this: proportional control of the load's position, "
-    "continuous, exact and unlimited; rigid faces; no dry friction";
+    "must have proportional control of the load's position, continuous, exact and unlimited, "
+    "rigid faces and no dry friction";
 
 /// Empty for any other drive. Precondition: every parameter is in its range.
 std::optional<ProportionalServo> proportional_servo(const Drive& drive);

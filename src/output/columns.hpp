@@ -27,4 +27,11 @@ std::string sentences(const std::vector<std::string>& parts);
 /// An empty line and the paragraph; nothing if it is empty.
 std::string further_paragraph(const std::string& paragraph);
 
+/// A text of such paragraphs and tables for a terminal of so many columns. Paragraphs are wrapped
+/// again. A row that is too long is folded under its last cell; where that begins too far to the
+/// right, the table is divided into groups of columns, each after the first column; a row of two
+/// cells is folded between them. A command of the tool is folded for a shell, by "\\". Only a word
+/// may be longer than a line. A text whose lines fit, and are no broken paragraphs, stays as it is.
+std::string fitted(const std::string& text, std::size_t columns);
+
 }  // namespace gearlash

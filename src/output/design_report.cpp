@@ -122,8 +122,12 @@ std::string reason(const DesignReport& report, const DesignedParameter& paramete
                                ? "no choice"
                                : "no value" + tried + " from " + shown.of(values.searched.low) +
                                      " to " + shown.of(values.searched.high);
+  const Axis searched{values.parameter, {values.searched.low, values.searched.high}};
+  const bool may_go_on = !shown.is_word() && values.kind != SearchKind::certified &&
+                         is_at_open_end(searched, report.drive, *values.closest);
   return what + "; closest is " + shown.of(*values.closest) + " (" +
-         result_of(report, parameter.results.at(0).answer) + ")";
+         result_of(report, parameter.results.at(0).answer) + ")" +
+         (may_go_on ? ", an end of that range: a wider one may have a value" : "");
 }
 
 std::string reasons(const DesignReport& report) {

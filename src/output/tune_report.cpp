@@ -125,11 +125,25 @@ std::string effort_text(const TuneReport& report) {
 
 }  // namespace
 
+std::vector<Note> TuneReport::notes() const {
+  std::vector<Note> found;
+  for (std::size_t i = 0; i < tuned.values.size(); ++i) {
+    const Axis& axis = task.tuned[i];
+    if (!is_at_open_end(axis, present_drive(*this), tuned.values[i])) continue;
+    found.push_back({"range-end", axis.path + " ends at the end of its range, " +
+                                      parameter_text(*this, axis.path, tuned.values[i]) +
+                                      ": a wider range may be better (--parameters " + axis.path +
+                                      "=FROM:TO)."});
+  }
+  return found;
+}
+
 std::string tune_text(const TuneReport& report) {
   return fmt::format("target: {}\nat present: {}\ntuned: {}\n\n", report.target_text,
                      result_text(report.present, report.angle),
                      result_text(report.nominal, report.angle)) +
          table_of_values(report) + further_paragraph(outcome_text(report)) +
+         further_paragraph(listed(report.notes(), &Note::text, " ")) +
          further_paragraph(limiting_text(report)) + further_paragraph(advice_text(report)) +
          further_paragraph(effort_text(report)) +
          hidden_error_text(report.task.target, {&report.nominal}, report.angle);

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "gearlash/tune.hpp"
 #include "output/report_units.hpp"
@@ -22,7 +23,9 @@ struct TuneReport {
   Provenance provenance{};  ///< how it was made
 
   [[nodiscard]] std::optional<std::string> why_integral_action_hunts()
-      const;  ///< whatever the gains; empty where it need not
+      const;                                      ///< whatever the gains; empty where it need not
+  [[nodiscard]] std::vector<Note> notes() const;  ///< of code "range-end": a tuned value is at an
+                                                  ///< end of what was sought, and may lie beyond
 };
 
 /// The tuned values, how many units they hold for, the unit that limits, and what to give up where

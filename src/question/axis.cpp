@@ -93,7 +93,7 @@ Axis spaced_axis(std::string_view field, std::string path, double from, double t
            "must be from 1 to " + std::to_string(most_values_on_an_axis));
   }
   if ((count == 1) != (from == to)) {
-    refuse(field, std::to_string(count) + " values from " + ends,
+    refuse(field, std::to_string(count) + (count == 1 ? " value from " : " values from ") + ends,
            "must be two or more between different ends, or one where they are the same");
   }
   Axis axis{std::move(path), {}, is_logarithmic};
@@ -214,19 +214,51 @@ void set_on(const std::vector<Axis>& axes, Drive& drive, std::span<const double>
   }
 }
 
-std::string cut_to_permitted(Axis& axis, const Drive& drive) {
-  const Parameter& parameter = *parameter_of(axis, drive);
+namespace {
+
+/// Leaves out the values that `why` gives a text for, if others remain: "0 and 2 more (why not 0)".
+template <class Why>
+std::string cut(Axis& axis, const Why& why) {
   std::vector<double> left_out;
   std::vector<double> kept;
-  for (const double value : axis.values) {
-    (faults_of_value(axis, parameter, value).empty() ? kept : left_out).push_back(value);
-  }
+  for (const double value : axis.values) (why(value).empty() ? kept : left_out).push_back(value);
   if (left_out.empty() || kept.empty()) return "";
   axis.values = std::move(kept);
   const std::string others =
       left_out.size() > 1 ? " and " + std::to_string(left_out.size() - 1) + " more" : "";
-  return exact_text(left_out.front()) + others + " (" + axis.path + " " +
-         faults_of_value(axis, parameter, left_out.front()).front().permitted + ")";
+  return exact_text(left_out.front()) + others + " (" + why(left_out.front()) + ")";
+}
+
+}  // namespace
+
+std::string cut_to_permitted(Axis& axis, const Drive& drive) {
+  const Parameter& parameter = *parameter_of(axis, drive);
+  return cut(axis, [&](double value) {
+    const std::vector<Fault> found = faults_of_value(axis, parameter, value);
+    return found.empty() ? "" : axis.path + " " + found.front().permitted;
+  });
+}
+
+std::string cut_to_sound(Axis& axis, const Drive& drive) {
+  return cut(axis, [&](double value) {
+    Drive other = drive;
+    set_on(axis, other, value);
+    const std::vector<Fault> found = faults(other);
+    return found.empty() ? "" : to_string(found.front());
+  });
+}
+
+bool is_at_open_end(const Axis& axis, const Drive& drive, double value) {
+  constexpr double near = 1e-3;  // of the range
+  const double low = axis.values.front();
+  const double high = axis.values.back();
+  const double position = position_on(axis, value);
+  const double step = near * (axis.logarithmic ? value : high - low);
+  const auto is_permitted = [&](double beyond) {
+    return faults_of_axis({axis.path, {beyond}}, drive, axis.path).empty();
+  };
+  return (position < near && is_permitted(low - step)) ||
+         (position > 1.0 - near && is_permitted(high + step));
 }
 
 std::vector<Fault> faults_of_axis(const Axis& axis, const Drive& drive, std::string_view field) {

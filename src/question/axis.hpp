@@ -81,6 +81,13 @@ std::vector<Fault> faults_of_axis(const Axis& axis, const Drive& drive, std::str
 /// parameter_of(axis, drive).
 std::string cut_to_permitted(Axis& axis, const Drive& drive);
 
+/// Likewise the values with which the drive, its other parameters as they are, would have faults.
+std::string cut_to_sound(Axis& axis, const Drive& drive);
+
+/// Whether the value is at an end of the axis, within a thousandth, and the parameter may lie
+/// beyond. Precondition: two or more numbers.
+bool is_at_open_end(const Axis& axis, const Drive& drive, double value);
+
 /// The name of a column or dimension: "damping" for servo.damping, … and "restitution" for
 /// contact.restitution, the names before paths existed; any other path with "_" in place of points
 /// and brackets.

@@ -23,11 +23,28 @@ std::vector<std::string> faults(const std::vector<std::string>& arguments) {
 }
 
 TEST(BadInput, AllMissingOptionsAreListedAtOnce) {
-  EXPECT_THAT(faults({"limit-cycle"}),
-              ElementsAre(StartsWith("gearlash: --damping is missing: "),
-                          StartsWith("gearlash: --inertia-ratio is missing: "),
+  EXPECT_THAT(faults({"limit-cycle", "--damping", "0.19"}),
+              ElementsAre(StartsWith("gearlash: --inertia-ratio is missing: "),
                           StartsWith("gearlash: --friction-ratio is missing: "),
                           StartsWith("gearlash: --backlash is missing: ")));
+}
+
+TEST(BadInput, WithoutADriveAFileIsAskedFor) {
+  for (const std::vector<std::string>& verb : std::vector<std::vector<std::string>>{
+           {"limit-cycle"},
+           {"simulate"},
+           {"describe"},
+           {"compare"},
+           {"show"},
+           {"tune"},
+           {"tolerance"},
+           {"design", "--target", "no-hunting"},
+           {"thesis", "run"},
+           {"thesis", "chart-reading"},
+           {"chart", "--x", "load.inertia=1:2:2", "--plot", "curves=a.svg"}}) {
+    EXPECT_THAT(faults(verb),
+                ElementsAre(StartsWith("gearlash: DRIVE.toml is missing: must be a drive's file")));
+  }
 }
 
 TEST(BadInput, EveryFaultOfTheOptionsIsListed) {
@@ -112,14 +129,14 @@ TEST(BadInput, MotorNeedsADataSheet) {
 
 TEST(BadInput, UsageFaultsAreOneLine) {
   EXPECT_THAT(faults({}),
-              ElementsAre("gearlash: subcommand is missing: must be limit-cycle, "
-                          "simulate, design, tune, tolerance, compare, describe, motor, "
-                          "chart, map, sweep, show, explore or thesis; see gearlash --help"));
+              ElementsAre("gearlash: verb is missing: must be limit-cycle, simulate, describe, "
+                          "compare, design, tune, tolerance, map, chart, sweep, explore, show, "
+                          "motor or thesis; see gearlash --help"));
   EXPECT_THAT(
       faults({"wobble"}),
-      ElementsAre("gearlash: subcommand = wobble: must be limit-cycle, "
-                  "simulate, design, tune, tolerance, compare, describe, motor, chart, map, "
-                  "sweep, show, explore or thesis; see gearlash --help"));
+      ElementsAre("gearlash: verb = wobble: must be limit-cycle, simulate, describe, compare, "
+                  "design, tune, tolerance, map, chart, sweep, explore, show, motor or thesis; see "
+                  "gearlash --help"));
   EXPECT_THAT(faults({"limit-cycle", "--dampness", "1"}), ElementsAre(HasSubstr("--dampness")));
   EXPECT_THAT(faults({"limit-cycle", "--damping"}), ElementsAre(HasSubstr("--damping")));
   EXPECT_THAT(faults({"limit-cycle", "a.toml", "b.toml"}), ElementsAre(HasSubstr("b.toml")));

@@ -230,7 +230,8 @@ TEST(ChartCommand, FaultsAreToldAtOnce) {
   EXPECT_THAT(nowhere.err, HasSubstr("--output is missing: must be given, or --plot curves=FILE"));
   const Outcome missing = run_tool({"chart", "--output", "a.csv"});
   EXPECT_EQ(missing.status, 2);
-  EXPECT_EQ(missing.err, "gearlash: --x is required; see gearlash chart --help\n");
+  EXPECT_EQ(missing.err,
+            "gearlash: --x is missing: must be given as --x AXIS; see gearlash chart --help\n");
 }
 
 TEST(ChartCommand, LeavesOutValuesThatAreNotPermittedAndSaysSo) {
@@ -243,6 +244,17 @@ TEST(ChartCommand, LeavesOutValuesThatAreNotPermittedAndSaysSo) {
   EXPECT_EQ(run.err,
             "gearlash: --x restitution: left out: 1.5 and 1 more (contact.restitution must "
             "be from 0 to 1)\n");
+}
+
+TEST(ChartCommand, SaysWhyAPointIsRefused) {
+  const test::Scratch scratch;
+  const Outcome run =
+      run_tool({"chart", "examples/robot-joint.toml", "--x", "gearbox.backlash=0 deg,2 deg",
+                "--output", (scratch / "a.csv").string()});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.err, testing::StartsWith("gearlash: 1 of 2 points refused, the first at "
+                                           "gearbox.backlash = 0: gearbox.backlash = 0 rad: must "
+                                           "be positive"));
 }
 
 }  // namespace

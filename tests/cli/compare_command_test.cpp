@@ -334,10 +334,18 @@ TEST(EdgeCompareCommand, ReportsAllFaultsAtOnce) {
   EXPECT_THAT(faults_of({"--x", "damping=0.1,0.2"}),
               ElementsAre(HasSubstr("--inertia-ratio"), HasSubstr("--friction-ratio")));
   // Values that no single rule forbids, but the drive does.
-  EXPECT_THAT(
-      faults_of({"examples/robot-joint.toml", "--x", "motor.breakaway=1 mN m,1.2 mN m,3 mN m"}),
-      ElementsAre(HasSubstr("0.001 N m: motor.breakaway"),
-                  HasSubstr("0.0012 N m: motor.breakaway")));
+  EXPECT_THAT(faults_of({"examples/robot-joint.toml", "--x", "motor.breakaway=1 mN m,1.2 mN m"}),
+              ElementsAre(HasSubstr("0.001 N m: motor.breakaway"),
+                          HasSubstr("0.0012 N m: motor.breakaway")));
+}
+
+TEST(CompareCommand, LeavesOutValuesThatTheDriveDoesNotPermit) {
+  const Outcome run = run_tool(
+      {"compare", "examples/robot-joint.toml", "--x", "gearbox.backlash=0,0.1 deg", "--brief"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.err, testing::StartsWith("gearlash: --x gearbox.backlash: left out: 0 "
+                                           "(gearbox.backlash = 0 rad: must be positive"));
+  EXPECT_EQ(test::lines_of(run.out).size(), 1U);
 }
 
 }  // namespace

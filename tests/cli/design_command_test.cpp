@@ -98,7 +98,7 @@ TEST(EdgeDesignCommand, PicturesThatCannotBeDrawnAreRefused) {
   };
   EXPECT_THAT(
       faults_of({"--vary", "backlash,backlash", "--plot", "region=a.txt", "--quantity", "money"}),
-      ElementsAre(StartsWith("gearlash: --vary = 2 names: must be two different"),
+      ElementsAre(StartsWith("gearlash: --vary = backlash, backlash: must be two"),
                   StartsWith("gearlash: --plot = a.txt: must"),
                   StartsWith("gearlash: --quantity = money: must be ")));
   EXPECT_THAT(faults_of({"--vary", "backlash,load.colour", "--plot", "region=a.svg"}),
@@ -309,6 +309,21 @@ TEST(DesignCommand, CutsRangesToWhatIsPermitted) {
   const Outcome refused = run_tool(wholly);
   EXPECT_EQ(refused.status, 2);
   EXPECT_THAT(refused.err, HasSubstr("servo.friction_ratio must be from 0 to 1"));
+}
+
+TEST(DesignCommand, SearchesAGapFromWhereItIsPermitted) {
+  // A rigid gap of 0 is no drive that can be searched; the search begins beyond it.
+  const Outcome run = run_tool({"design", "examples/symptoms/joint.toml", "--sensor", "motor",
+                                "--target", "settling-time <= 200 ms", "--parameters",
+                                "gearbox.backlash=0 arcmin:10 arcmin:3"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.err,
+              testing::StartsWith("gearlash: --parameters gearbox.backlash: left out: 0 "));
+  EXPECT_THAT(run.out, HasSubstr("5 arcmin to 10 arcmin"));
+  const Outcome usual =
+      run_tool({"design", "examples/symptoms/joint.toml", "--sensor", "motor", "--target",
+                "settling-time <= 200 ms", "--parameters", "gearbox.backlash"});
+  EXPECT_EQ(usual.status, 0) << usual.err;
 }
 
 }  // namespace

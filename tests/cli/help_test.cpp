@@ -1,7 +1,12 @@
 // --help everywhere, with examples and exit statuses, and --version.
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <sys/ioctl.h>
+
+#include <algorithm>
 
 #include "gearlash/version.hpp"
+#include "output/columns.hpp"
 #include "tool.hpp"
 
 namespace gearlash::help_test {
@@ -59,6 +64,87 @@ TEST(Help, EveryOptionOfTheContractIsNamed) {
                              "--every", "--events", "--output"}) {
     EXPECT_THAT(simulate, HasSubstr(option));
   }
+}
+
+TEST(Help, ListsTheVerbsInGroupsAndThoseOf1960Last) {
+  const std::string help = run_tool({"help"}).out;
+  std::size_t last = 0;
+  for (const char* text :
+       {"\nAsk what a drive does:\n", "  limit-cycle ", "  simulate ", "  describe ", "  compare ",
+        "\nFind what to change:\n", "  design ", "  tune ", "  tolerance ",
+        "\nDraw and tabulate:\n", "  map ", "  chart ", "  sweep ", "  explore ", "  show ",
+        "  motor ", "\nThe thesis of 1960:\n", "  thesis ",
+        "\nExamples:\n  gearlash limit-cycle examples/robot-joint.toml --brief\n"}) {
+    const std::size_t place = help.find(text, last);
+    ASSERT_NE(place, std::string::npos) << text;
+    last = place;
+  }
+}
+
+TEST(Help, FlagsOf1960StandLast) {
+  for (const char* verb : {"limit-cycle", "simulate", "describe", "compare", "design", "tune",
+                           "tolerance", "map", "chart", "explore", "show"}) {
+    const std::string help = run_tool({verb, "--help"}).out;
+    const std::size_t group = help.find("\nServo of 1960, without a file:\n");
+    ASSERT_NE(group, std::string::npos) << verb;
+    for (const char* option :
+         {"\n  --set", "\n  --sensor", "\n  --specification", "\n  --step", "\n  --band"}) {
+      EXPECT_LT(help.find(option), group) << verb << option;
+    }
+    const std::size_t end = help.find("\n\n", group);
+    EXPECT_GT(help.find("\n  --damping"), group) << verb;
+    EXPECT_EQ(help.rfind("\n  --"), help.find("\n  --restitution")) << verb << ": nothing after it";
+    EXPECT_LT(help.find("\n  --restitution"), end) << verb;
+  }
+}
+
+/// No line is wider, but for one of a single word, quoted or followed by the shell's mark.
+void expect_width(const std::string& text, std::size_t columns) {
+  for (const std::string& line : test::lines_of(text)) {
+    const std::size_t width = width_in_columns(line);
+    const std::string words = line.substr(std::min(line.find_first_not_of(' '), line.size()));
+    const std::string word = words.substr(0, words.find_last_not_of(" \\") + 1);
+    const bool is_word = word.find(' ') == std::string::npos || word.starts_with('"');
+    EXPECT_TRUE(width <= columns || is_word) << columns << ": " << line;
+  }
+}
+
+TEST(Help, AndReportsFitTheWidthThatIsGiven) {
+  for (const std::size_t columns : {40U, 57U, 80U, 160U}) {
+    const std::string width = "COLUMNS=" + std::to_string(columns) + " \"$GEARLASH\" ";
+    for (const char* verb : {"help", "limit-cycle --help", "design --help", "simulate --help",
+                             "thesis run --help", "limit-cycle examples/elinco-fd162.toml",
+                             "design examples/elinco-fd162.toml --target no-hunting",
+                             "motor examples/elinco-fd162.toml"}) {
+      const Outcome run = test::run_shell(width + verb);
+      EXPECT_EQ(run.status, 0) << verb;
+      expect_width(run.out, columns);
+    }
+  }
+  // Documents are never folded.
+  const std::string json = " limit-cycle examples/elinco-fd162.toml --format json";
+  EXPECT_EQ(test::run_shell("COLUMNS=40 \"$GEARLASH\"" + json).out,
+            test::run_shell("\"$GEARLASH\"" + json).out);
+}
+
+TEST(Help, TheTerminalsWidthIsKnown) {
+  const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+  ASSERT_GE(terminal, 0);
+  ASSERT_EQ(grantpt(terminal) + unlockpt(terminal), 0);
+  const std::string name = ptsname(terminal);
+  const int held = open(name.c_str(), O_RDWR | O_NOCTTY);  // keeps what is written
+  winsize window{};
+  window.ws_col = 44;
+  ASSERT_EQ(ioctl(terminal, TIOCSWINSZ, &window), 0);
+  test::run_shell("COLUMNS=90 \"$GEARLASH\" limit-cycle examples/robot-joint.toml --brief >" +
+                  name);
+  std::string text(4096, '\0');
+  text.resize(static_cast<std::size_t>(read(terminal, text.data(), text.size())));
+  close(held);
+  close(terminal);
+  std::erase(text, '\r');
+  EXPECT_GT(test::lines_of(text).size(), 1U);
+  expect_width(text, 44);
 }
 
 TEST(Help, IsAVerbToo) {

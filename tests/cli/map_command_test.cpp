@@ -283,7 +283,7 @@ TEST(EdgeMapAxes, EachFaultOfTwoIsOneLine) {
   EXPECT_THAT(fault_of_axes("damping=0.3:0.300000001:20", "inertia-ratio=1,2", "a.svg"),
               StartsWith("gearlash: --x = 0.3 to 0.300000001: must span 0.001 of itself or more"));
   EXPECT_EQ(run_tool({"map", "--x", "damping=0.1:0.5:5", "--output", "a.csv"}).err,
-            "gearlash: --y is required; see gearlash map --help\n");
+            "gearlash: --y is missing: must be given as --y AXIS; see gearlash map --help\n");
 }
 
 TEST(MapCommand, ASearchedMapIsDrawnCellByCell) {

@@ -73,25 +73,28 @@ TEST(ThesisCommand, EachFaultIsOneLine) {
     std::vector<std::string> words;
     std::string fault;
   } cases[] = {
-      {{}, "subcommand is missing: must be " + verbs + "; see gearlash thesis --help"},
+      {{}, "verb is missing: must be " + verbs + "; see gearlash thesis --help"},
       {{"table-9"},
-       "subcommand = table-9: must be " + verbs +
-           " (did you mean table-2?); see gearlash thesis --help"},
+       "verb = table-9: must be " + verbs + " (did you mean table-2?); see gearlash thesis --help"},
       {{"table-2", "--arithmetic", "decimal"}, "--arithmetic = decimal: must be double or 1604"},
       {{"table-2", "--properties", "--arithmetic", "1604"},
-       "--arithmetic excludes --properties; see gearlash thesis table-2 --help"},
+       "--arithmetic and --properties must not be given together; see gearlash thesis table-2 "
+       "--help"},
       {{"machine", "--rules", "--listing"},
-       "--rules excludes --listing; see gearlash thesis machine --help"},
+       "--rules and --listing must not be given together; see gearlash thesis machine --help"},
       {{"machine", "--trace", "0.5"}, "--trace = 0.5: must be a whole number from 1 to 1000000"},
       {{"run", "--damping", "0.1", "--inertia-ratio", "inf", "--friction-ratio", "0.2"},
        "inertia_ratio = inf: must be from 1e-9 to 1e9: the program of 1960 divides by both "
        "inertias"},
       {{"run", "--all", "--damping", "3"},
-       "--damping excludes --all; see gearlash thesis run --help"},
-      {{"run", "--plot", "errors=a.svg"}, "--plot requires --all; see gearlash thesis run --help"},
+       "--damping and --all must not be given together; see gearlash thesis run --help"},
+      {{"run", "--plot", "errors=a.svg"},
+       "--plot must come with --all; see gearlash thesis run --help"},
       {{"run", "--causes", "--machine"},
-       "--machine excludes --causes; see gearlash thesis run --help"},
-      {{"run", "a.toml", "b", "c"}, "not expected: b c; see gearlash thesis run --help"},
+       "--machine and --causes must not be given together; see gearlash thesis run --help"},
+      {{"run", "a.toml", "b"},
+       "b: one word too many: run takes one DRIVE.toml; a value with blanks needs quotes; see "
+       "gearlash thesis run --help"},
       {{"figure", "16"},
        "N = 16: must be the number of a figure: 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14 or "
        "15"},

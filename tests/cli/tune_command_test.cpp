@@ -66,6 +66,23 @@ TEST(TuneCommand, SaysWhatToGiveUpWhereNothingMeetsTheTarget) {
                              HasSubstr("Without integral action: The drive meets the target")));
 }
 
+TEST(TuneCommand, SaysThatAValueIsAtTheEndOfItsRangeUnlessItMustEndThere) {
+  const auto tuned = [](const std::string& range, const std::string& format) {
+    return run_tool({"tune", "examples/elinco-fd162.toml", "--target", "no-hunting",
+                     "--phase-margin", "0 deg", "--parameters", "controller.proportional=" + range,
+                     "--format", format});
+  };
+  // The greatest bandwidth without hunting is that at 0.374 V/rad.
+  const std::string note =
+      "controller.proportional ends at the end of its range, 0.1 V/rad: a wider range may be "
+      "better";
+  EXPECT_THAT(tuned("0.01 V/rad:0.1 V/rad", "text").out, HasSubstr(note));
+  const auto json = nlohmann::json::parse(tuned("0.01 V/rad:0.1 V/rad", "json").out);
+  EXPECT_EQ(json["notes"][0]["code"], "range-end");
+  EXPECT_THAT(json["notes"][0]["text"].get<std::string>(), HasSubstr(note));
+  EXPECT_EQ(nlohmann::json::parse(tuned("0.01 V/rad:1 V/rad", "json").out)["notes"].size(), 0U);
+}
+
 TEST(EdgeTuneCommand, FaultsAreToldAtOnce) {
   const Outcome run =
       run_tool({"tune", "examples/robot-joint.toml", "--for", "beauty", "--share", "0", "--units",

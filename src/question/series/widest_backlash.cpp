@@ -104,7 +104,7 @@ std::optional<WidestBacklash> widest_backlash(const TolerancedDrive& drive,
   RangeCheck check;
   check.include(faults(drive));
   if (check.faults().empty() && is_searched(drive)) {
-    check.refuse("drive", "without a closed form", permitted_with_servo);
+    check.refuse("drive", "not a servo as that of 1960", permitted_with_servo);
   }
   check.include(faults(sampling)).include(faults(demand));
   require_none(check.faults());
