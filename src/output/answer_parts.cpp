@@ -237,7 +237,7 @@ std::string safe_starts_text(const AnswerReport& report) {
 }
 
 std::string below_limit_text(const Ceiling& ceiling) {
-  return ceiling.is_below_limit ? ", if its torque stays below the limit" : "";
+  return ceiling.is_below_limit ? ", if it stays off its limits" : "";
 }
 
 /// The bound of the mesh torque of a drive whose swing has none.

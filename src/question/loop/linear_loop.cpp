@@ -165,6 +165,7 @@ std::optional<LinearLoop> loop_figures(const ReducedDrive& drive) {
   if (drive.error_shape.is_relay()) return std::nullopt;
   LinearLoop figures;
   figures.is_stable = loop_decays(linear_drive(EnclosedDrive(drive)));
+  if (drive.sampling && position_ticks(*drive.sampling) > 1) return figures;
   const std::vector<double> frequencies = sampled_frequencies(drive);
   if (!figures.is_stable || frequencies.empty()) return figures;
   const LoopTransfer loop(linear_drive(drive));

@@ -116,6 +116,8 @@ Feedback feedback_of(const ReducedDrive& drive, TorqueGiven torque) {
                           RationalFunction(drive.sampling->period);
     }
     delay = 0.5 * drive.sampling->period + drive.sampling->delay;
+    const double kept = position_period(*drive.sampling) - drive.sampling->period;
+    if (kept > 0.0) transfer.position = transfer.position * delay_approximation(0.5 * kept);
   }
   const RationalFunction minus(-1.0);
   if (torque == TorqueGiven::as_asked) {
