@@ -247,8 +247,8 @@ std::vector<Parameter> feedback_and_sampling() {
       entry("sampling.position_period",
             only_if<may_have_two_rates, in_sampling<&Sampling::position_period>>,
             "time between two samples of a cascade's position controller, a whole multiple of the "
-            "period",
-            unit<time>, positive, DefaultOf{"sampling.period"},
+            "period; none: the period",
+            unit<time>, positive,
             OtherForm{"sampling.position_frequency", &angular_frequency, turn},
             OtherForm{"sampling.position_rate", &angular_frequency, turn}, UsualRange{1e-5, 0.1}),
       entry("sampling.delay", in_sampling<&Sampling::delay>, "time from reading to output",
