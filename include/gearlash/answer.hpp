@@ -283,7 +283,8 @@ struct Ceiling {
   std::optional<double> effort{};
   std::string reason{};         ///< why there is none
   std::string effort_reason{};  ///< why there is none for the effort
-  /// The motor's torque is limited, and motion that reaches the limit ever again is not bounded.
+  /// The motor's torque is limited, or the speed that a cascade asks for, and motion that reaches
+  /// the limit ever again is not bounded.
   bool is_below_limit = false;
   /// Whether a motion can stay off the limit: effort and holding torque together are below it.
   /// Empty if the effort has no ceiling, there is no limit, or the holding torque is not known: the

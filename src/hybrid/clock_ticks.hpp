@@ -39,22 +39,37 @@ class ClockTicks {
     }
     return true;
   }
-  /// The period of all clocks that still tick. 0 if they have several. Precondition: are_regular().
-  double common_period() const {
+  /// The shortest time in which every clock that still ticks has ticked, and all tick as before. 0
+  /// if there is none. Precondition: are_regular().
+  double common_period() const { return shared_period() * static_cast<double>(ticks_of_round()); }
+  /// Clock::period of all clocks that still tick. 0 if they have several, or not one of them ticks
+  /// with each tick of any other. Precondition: are_regular().
+  double shared_period() const {
+    const std::size_t of_round = ticks_of_round();
     double period = 0.0;
     for (std::size_t i = 0; i < ticks_.size(); ++i) {
       if (!std::isfinite(ticks_[i].time)) continue;
-      if (period != 0.0 && clocks_[i].period != period) return 0.0;
+      const bool differs = period != 0.0 && clocks_[i].period != period;
+      if (differs || of_round % clocks_[i].every != 0) return 0.0;
       period = clocks_[i].period;
     }
     return period;
   }
-  /// Passes over this many ticks of every clock. Precondition: are_regular().
-  void pass_over(std::size_t count) {
+  /// The largest Clock::every of those that still tick.
+  std::size_t ticks_of_round() const {
+    std::size_t most = 1;
+    for (std::size_t i = 0; i < ticks_.size(); ++i) {
+      if (std::isfinite(ticks_[i].time)) most = std::max(most, clocks_[i].every);
+    }
+    return most;
+  }
+  /// Passes over this many common periods. Precondition: are_regular().
+  void pass_over(std::size_t rounds) {
+    const std::size_t of_round = ticks_of_round();
     for (std::size_t i = 0; i < ticks_.size(); ++i) {
       if (!std::isfinite(ticks_[i].time)) continue;
-      ticks_[i].count += count;
-      ticks_[i].time = clocks_[i].first + static_cast<double>(ticks_[i].count) * clocks_[i].period;
+      ticks_[i].count += rounds * (of_round / clocks_[i].every);
+      ticks_[i].time = time_of(clocks_[i], ticks_[i].count);
     }
   }
   /// Moves all clocks past their ticks before a time. Precondition: are_regular().
@@ -80,11 +95,16 @@ class ClockTicks {
     std::size_t count = 0;
   };
 
+  /// Of a clock with a period.
+  static double time_of(const Clock& clock, std::size_t count) {
+    return clock.first + static_cast<double>(count * clock.every) * clock.period;
+  }
+
   static Tick first_tick(const Clock& clock, double from) {
     Tick tick{clock.period > 0.0 ? clock.first : clock.times.front()};
     if (clock.period > 0.0 && tick.time < from) {
-      tick.count = static_cast<std::size_t>((from - clock.first) / clock.period);
-      tick.time = clock.first + static_cast<double>(tick.count) * clock.period;
+      tick.count = static_cast<std::size_t>((from - clock.first) / clock.period) / clock.every;
+      tick.time = time_of(clock, tick.count);
     }
     while (tick.time < from) advance(clock, tick);
     return tick;
@@ -92,9 +112,8 @@ class ClockTicks {
 
   static void advance(const Clock& clock, Tick& tick) {
     ++tick.count;
-    const auto count = static_cast<double>(tick.count);
     if (clock.period > 0.0) {
-      tick.time = clock.first + count * clock.period;
+      tick.time = time_of(clock, tick.count);
     } else {
       tick.time = tick.count < clock.times.size() ? clock.times[tick.count] : infinity;
     }

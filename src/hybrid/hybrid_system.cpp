@@ -102,6 +102,7 @@ class Inspection {
     if (!std::isfinite(clock.period) || clock.period < 0.0) {
       note(where + ".period", exact_text(clock.period), "must be finite and at least 0");
     }
+    if (clock.every == 0) note(where + ".every", "0", "must be at least 1");
     if (clock.period == 0.0 && clock.times.empty()) {
       note(where + ".period", "0", "must be positive where there are no times");
     }

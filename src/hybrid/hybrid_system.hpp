@@ -114,7 +114,8 @@ void for_each_jump(Mode& mode, const Visit& visit) {
   for (auto& timed : mode.timed) visit(timed);
 }
 
-/// Ticks at first, first + period, first + 2 period, …; or, without a period, at `times`. A motion
+/// Ticks at first, first + period, first + 2 period, …, or at each `every`-th of these times; or,
+/// without a period, at `times`. A motion
 /// meets those that are not before its own start.
 struct Clock {
   std::string name{};
@@ -123,6 +124,7 @@ struct Clock {
   std::vector<double> times{};      ///< without a period: rising
   std::vector<Vector> additions{};  ///< one for each of `times`, or none: a timed transition adds
                                     ///< it after its reset
+  std::size_t every = 1;            ///< ≥ 1, used with a period
 };
 
 /// Modes with affine flows of a state x of fixed size, and the transitions between them.

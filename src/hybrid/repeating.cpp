@@ -129,19 +129,21 @@ Repeating::Round* Repeating::round_of(std::size_t length) {
   return &found->second;
 }
 
-/// From the clocks, because differences of large times are rounded.
+/// Of the last round. From the clocks, because differences of large times are rounded.
 std::vector<double> Repeating::lengths_of(const std::vector<std::size_t>& transitions) const {
-  const double period = ticks_.common_period();
+  const double period = ticks_.shared_period();
   std::vector<double> lengths;
   double sum = 0.0;
   for (std::size_t i = 1; i < transitions.size(); ++i) {
     const std::vector<TimedTransition>& timed = now_.mode->mode().timed;
     const double between =
         ticks_.first(timed[transitions[i]].clock) - ticks_.first(timed[transitions[i - 1]].clock);
-    lengths.push_back(between - period * std::floor(between / period));
+    const std::size_t event = events_.size() - transitions.size() + i;
+    const double seen = events_[event].time - events_[event - 1].time;
+    lengths.push_back(between + period * std::round((seen - between) / period));
     sum += lengths.back();
   }
-  lengths.insert(lengths.begin(), period - sum);
+  lengths.insert(lengths.begin(), ticks_.common_period() - sum);
   return lengths;
 }
 

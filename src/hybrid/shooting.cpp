@@ -38,6 +38,16 @@ double duration_of(const std::vector<Passage>& passages) {
   return time;
 }
 
+/// Whether clocks that tick at some ticks of others alone are after a time as they were.
+bool has_whole_rounds(const HybridSystem& system, double time) {
+  constexpr double rounding = 1e-6;
+  return all_of(system.clocks, [&](const Clock& clock) {
+    if (clock.every == 1) return true;
+    const double rounds = time / (clock.period * static_cast<double>(clock.every));
+    return std::abs(rounds - std::round(rounds)) <= rounding;
+  });
+}
+
 }  // namespace
 
 bool has_periodic_clocks(const HybridSystem& system) {
@@ -86,7 +96,9 @@ std::optional<Shooting> Shooting::about(const PreparedSystem& system, const Stat
                                         double start_time, double period, std::size_t events,
                                         std::size_t phases) {
   Shooting shooting(system, start, start_time, period);
-  if (!shooting.returns_by_itself_) return std::nullopt;
+  if (!shooting.returns_by_itself_ || !has_whole_rounds(system.system(), period)) {
+    return std::nullopt;
+  }
   const auto over_a_period = [&](const State& first) {
     const double from = shooting.has_clocks_ ? shooting.start_time_ : 0.0;
     return simulate(system, first,

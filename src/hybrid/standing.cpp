@@ -23,7 +23,7 @@ std::size_t Standing::stand() {
     ++repeated;
     unchanged = now_.state.numbers == before_ ? unchanged + 1 : 0;
     // Each clock has ticked at least once in this many instants.
-    if (unchanged > 2 * ticks_.count()) ticks_.pass_before(until_);
+    if (unchanged > 2 * ticks_.count() * ticks_.ticks_of_round()) ticks_.pass_before(until_);
     if (period == 0.0 || now_.time < round_ends) continue;
     round_ends = now_.time + (1.0 - 1e-6) * period;
     rounds.add(now_.state.numbers, rounding_);

@@ -3,6 +3,7 @@
 
 #include "model/firmware.hpp"
 #include "model/parameter_list.hpp"
+#include "model/reduced_drive.hpp"
 
 namespace gearlash::parameter_rows {
 namespace {
@@ -194,6 +195,17 @@ std::vector<Parameter> law_parameters() {
             "output per integral of the speed error", gain, OtherForm{"controller.Ki"},
             OtherForm{"controller.ki"}, integral_time("controller.Tn", "controller.speed"),
             integral_time("controller.Ti", "controller.speed"), UsualRange{1e-3, 1e4}),
+      entry("controller.speed_limit", in_law<&CascadeController::speed_limit>,
+            "largest speed that the position controller asks for; none: no limit",
+            unit<angular_speed>, positive, UsualRange{0.1, 1000.0}),
+      entry("controller.speed_feedforward", in_law<&CascadeController::speed_feedforward>,
+            "share of the reference's speed that is added to the speed asked for", share,
+            Wanted{"a number from 0 to 1, or in percent"}, UsualRange{0.0, 1.0, false}),
+      entry("controller.acceleration_feedforward",
+            in_law<&CascadeController::acceleration_feedforward>,
+            "output per acceleration of the reference",
+            unit_by_motor<torque_per_acceleration, voltage_per_acceleration>, not_negative,
+            UsualRange{1e-5, 10.0}),
       entry("controller.gain",
             first_of<in_law<&LeadLagController::gain>, in_law<&TransferFunctionController::gain>,
                      in_law<&StateSpaceController::gain>>,
@@ -234,6 +246,8 @@ constexpr Place in_sampling = at<&Drive::sampling, member>;
 
 bool is_sampled(const Drive& drive) { return drive.sampling.has_value(); }
 
+bool may_have_two_rates(const Drive& drive) { return is_sampled(drive) && is_cascade(drive); }
+
 std::size_t speed_source(const Drive& drive) {
   return drive.sampling->speed_by_differences ? 0 : 1;
 }
@@ -253,6 +267,13 @@ std::vector<Parameter> feedback_and_sampling() {
             OtherForm{"sampling.frequency", Relation::reciprocal, &angular_frequency, turn},
             OtherForm{"sampling.rate", Relation::reciprocal, &angular_frequency, turn},
             OtherForm{"actuator.timestep"}, UsualRange{1e-5, 0.1}),
+      entry("sampling.position_period",
+            only_if<may_have_two_rates, in_sampling<&Sampling::position_period>>,
+            "time between two samples of a cascade's position controller, a whole multiple of the "
+            "period; none: the period",
+            unit<time>, positive,
+            OtherForm{"sampling.position_frequency", Relation::reciprocal, &angular_frequency, turn},
+            OtherForm{"sampling.position_rate", Relation::reciprocal, &angular_frequency, turn}, UsualRange{1e-5, 0.1}),
       entry("sampling.delay", in_sampling<&Sampling::delay>, "time from reading to output",
             unit<time>, not_negative, UsualRange{1e-6, 0.1}),
       entry("sampling.method", in_sampling<&Sampling::method>,

@@ -77,6 +77,11 @@ double spectral_radius(const LinearController& controller) {
   return std::isfinite(radius) ? radius : std::numeric_limits<double>::infinity();
 }
 
+int position_ticks(const Sampling& sampling) {
+  if (!sampling.position_period) return 1;
+  return static_cast<int>(std::lround(*sampling.position_period / sampling.period));
+}
+
 SplitDelay split_delay(const Sampling& sampling) {
   if (sampling.delay == 0.0) return {};
   constexpr double rounding = 1e-12;

@@ -65,6 +65,16 @@ std::vector<Fault> faults(const LinearController& controller);
 /// A state advances by T ((1 − share) ẋ(t) + share ẋ(t + T)): ½, 1, 0.
 double share_of_end(Discretization method);
 
+/// A position controller runs at every one of at most so many ticks.
+inline constexpr int most_position_ticks = 1000;
+
+/// Periods from one tick of the position controller to the next. Precondition: a sound sampling.
+int position_ticks(const Sampling& sampling);
+/// s, from one of its ticks to the next.
+inline double position_period(const Sampling& sampling) {
+  return sampling.period * static_cast<double>(position_ticks(sampling));
+}
+
 /// Each period that a result waits for its output is a number of the state.
 inline constexpr int most_periods_of_delay = 100;
 

@@ -61,6 +61,10 @@ inline constexpr Dimension voltage_per_angle_and_time{
     "voltage per angle and time", "V/(rad s)", 2, 1, -4, -1, -1, required, "50 V/(rad s)"};
 inline constexpr Dimension angular_acceleration{
     "angular acceleration", "rad/s2", 0, 0, -2, 0, 1, required, "100 rad/s2"};
+inline constexpr Dimension torque_per_acceleration{
+    "torque per angular acceleration", "N m s2/rad", 2, 1, 0, 0, -1, optional, "0.3 N m s2/rad"};
+inline constexpr Dimension voltage_per_acceleration{
+    "voltage per angular acceleration", "V s2/rad", 2, 1, -1, -1, -1, optional, "0.1 V s2/rad"};
 inline constexpr Dimension rate{"rate", "1/s", 0, 0, -1, 0, 0, absent, "30 1/s"};
 inline constexpr Dimension speed_per_voltage{
     "angular speed per voltage", "rad/(s V)", -2, -1, 2, 1, 1, required, "260 rpm/V"};

@@ -48,8 +48,8 @@ struct ShaftOf {
 };
 using Shaft = ShaftOf<double>;
 
-/// The winding of a motor that is driven by a voltage. Its torque τ lags behind the requested one:
-/// time_constant τ′ = τ_requested − back_emf ω_M − τ.
+/// The winding of a motor that is driven by a voltage, or with its current controlled. Its torque τ
+/// lags behind the requested one: time_constant τ′ = τ_requested − back_emf ω_M − τ.
 template <class Number>
 struct WindingOf {
   Number time_constant = 0.0;  ///< s, ≥ 0. At 0, back_emf is part of the motor's viscous friction
@@ -79,8 +79,12 @@ struct ErrorShapeOf {
 
   /// Whether it changes the error at all.
   bool is_present() const { return inner_gain != 1.0 || outer_gain != 1.0 || offset != 0.0; }
-  bool is_relay() const { return outer_gain == 0.0; }
-  /// rad, what the controller receives less the error. Precondition: not a relay.
+  bool is_relay() const { return inner_gain == 0.0 && outer_gain == 0.0; }
+  /// Whether it keeps the error within ±offset: a limit of the speed that a cascade asks for.
+  bool is_limit() const { return inner_gain != 0.0 && outer_gain == 0.0; }
+  /// Whether small errors are not received as they are.
+  bool changes_small_errors() const { return is_present() && !is_limit(); }
+  /// rad, what the controller receives less the error. Precondition: neither a relay nor a limit.
   Number largest_change() const {
     using std::abs;
     return is_exactly(inner_gain, 0.0) ? begins : abs(offset);
@@ -96,19 +100,24 @@ struct ErrorShapeOf {
 };
 using ErrorShape = ErrorShapeOf<double>;
 
-/// What a controller adds because of its reference's speed w.
+/// What a controller adds because of its reference's speed w and acceleration.
 template <class Number>
 struct FeedforwardOf {
   Number torque = 0.0;        ///< N m: torque · sat(w/speed), or torque · sign w
   Number speed = 0.0;         ///< rad/s, ≥ 0
   Number half_gap = 0.0;      ///< rad, on the side of the reference's last motion
   Number take_up_time = 0.0;  ///< s, ≥ 0: a lag of half_gap
+  Number lead = 0.0;          ///< s: lead · w is added to the reference
+  Number inertia = 0.0;       ///< N m s²/rad: torque per acceleration
 
-  bool is_absent() const { return torque == 0.0 && half_gap == 0.0; }
+  bool is_absent() const {
+    return torque == 0.0 && half_gap == 0.0 && lead == 0.0 && inertia == 0.0;
+  }
 
   static constexpr auto members() {
     return std::make_tuple(&FeedforwardOf::torque, &FeedforwardOf::speed, &FeedforwardOf::half_gap,
-                           &FeedforwardOf::take_up_time);
+                           &FeedforwardOf::take_up_time, &FeedforwardOf::lead,
+                           &FeedforwardOf::inertia);
   }
 };
 using Feedforward = FeedforwardOf<double>;
@@ -215,6 +224,11 @@ inline LinearController running_controller(const ReducedDrive& drive) {
   return drive.sampling ? sampled_controller(drive.controller, *drive.sampling) : drive.controller;
 }
 
+/// Whether the controller works with an error that it has read before, at a tick of its own.
+inline bool keeps_error(const ReducedDrive& drive) {
+  return drive.sampling && (drive.error_shape.is_present() || position_ticks(*drive.sampling) > 1);
+}
+
 /// Whether the shafts are joined by a spring without a gap.
 inline bool is_joined(const ReducedDrive& drive) {
   return drive.backlash == 0.0 && std::holds_alternative<CompliantContact>(drive.contact);
@@ -231,7 +245,7 @@ inline bool has_stiction(const ReducedDrive& drive) {
 }
 
 /// Whether gap and dry friction are all that is not linear in the drive, its sensors and limits
-/// left aside: its controller is linear, and adds nothing by the sign of a speed.
+/// left aside: its controller is linear, and adds nothing because of its reference's motion.
 inline bool has_linear_control(const ReducedDrive& drive) {
   return !drive.error_shape.is_present() && drive.feedforward.is_absent();
 }

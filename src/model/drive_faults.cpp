@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -137,6 +138,14 @@ void check_error_shape(RangeCheck& check, const Drive& drive) {
                           : "must follow the reference, or controller.dead_band be 0: both change "
                             "the error");
   }
+  const auto* cascade = std::get_if<CascadeController>(&controller.law);
+  if (cascade != nullptr && cascade->speed_limit && (is_band || of_error)) {
+    check.refuse("controller.speed_limit", exact_text(*cascade->speed_limit) + " rad/s",
+                 std::string("must be left out, or ") +
+                     (is_band ? "controller.dead_band be 0"
+                              : "controller.backlash_compensation follow the reference") +
+                     ": both change the error; motor.torque_limit bounds a motion too");
+  }
   if ((is_band || of_error) && !acts_on_error(drive)) {
     check.refuse(is_band ? "controller.dead_band" : "controller.backlash_compensation", "",
                  "must be 0: the controller does not act on the error r - y alone");
@@ -145,6 +154,36 @@ void check_error_shape(RangeCheck& check, const Drive& drive) {
     check.refuse("controller.hysteresis", exact_text(band.hysteresis) + " rad",
                  "must be at most controller.dead_band, " + exact_text(band.width) + " rad");
   }
+}
+
+/// What a cascade alone has, and how its position controller goes with its speed controller.
+void check_cascade(RangeCheck& check, const Drive& drive) {
+  const auto* cascade = std::get_if<CascadeController>(&drive.controller.law);
+  const bool has_law = !drive.servo && !drive.controller.firmware && cascade != nullptr;
+  if (has_law && cascade->position == 0.0 && cascade->speed_feedforward != 0.0) {
+    check.refuse("controller.speed_feedforward", exact_text(cascade->speed_feedforward),
+                 "must be 0 beside controller.position = 0: it leads the reference that the "
+                 "position controller follows");
+  }
+  if (!drive.sampling || !drive.sampling->position_period) return;
+  const Sampling& sampling = *drive.sampling;
+  const std::string value = exact_text(*sampling.position_period) + " s";
+  if (!is_cascade(drive)) {
+    check.refuse("sampling.position_period", value,
+                 "must be left out: of the controllers a cascade alone has two, of position and of "
+                 "speed");
+    return;
+  }
+  if (!(sampling.period > 0.0 && *sampling.position_period > 0.0)) return;  // said elsewhere
+  constexpr double rounding = 1e-9;
+  const double ticks = *sampling.position_period / sampling.period;
+  const bool is_whole = std::abs(ticks - std::round(ticks)) <= rounding * ticks;
+  if (is_whole && ticks >= 0.5 && ticks < drive::most_position_ticks + 0.5) return;
+  const double near = std::clamp(std::round(ticks), 1.0, 1.0 * drive::most_position_ticks);
+  check.refuse("sampling.position_period", value,
+               "must be sampling.period, " + exact_text(sampling.period) + " s, times a whole " +
+                   "number from 1 to " + std::to_string(drive::most_position_ticks) + ", such as " +
+                   exact_text(near * sampling.period) + " s");
 }
 
 void check_gravity(RangeCheck& check, const Drive& drive) {
@@ -411,6 +450,7 @@ std::vector<Fault> faults(const Drive& drive, drive::ReducedDrive& reduced) {
   check_torques(check, drive);
   check_specification(check, drive);
   check_error_shape(check, drive);
+  check_cascade(check, drive);
   check_gravity(check, drive);
   check_columns(check, drive);
   check_counts(check, drive);

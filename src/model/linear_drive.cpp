@@ -277,6 +277,7 @@ LinearDrive<double> linear_drive(const ReducedDrive& drive) {
   if (!drive.sampling) return linear;
   linear.period = drive.sampling->period;
   linear.holds = held_torques(*drive.sampling);
+  linear.position_ticks = drive::position_ticks(*drive.sampling);
   return linear;
 }
 
@@ -284,6 +285,7 @@ LinearDrive<Interval> linear_drive(const EnclosedDrive& drive) {
   LinearDrive<Interval> linear = made_of(drive.form(), drive.numbers(), drive.controller());
   linear.period = drive.period();
   linear.holds = drive.held_torques();
+  if (drive.form().sampling) linear.position_ticks = drive::position_ticks(*drive.form().sampling);
   return linear;
 }
 

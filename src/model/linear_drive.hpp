@@ -122,6 +122,7 @@ struct LinearDrive {
   // Of a sampled controller.
   Number period{0.0};
   std::vector<HeldTorqueOf<Number>> holds{};  ///< none: continuous
+  int position_ticks = 1;                     ///< periods between two readings of the position
   bool counts = false;                        ///< the speed is a difference of positions
 
   std::size_t order() const { return controller.order(); }

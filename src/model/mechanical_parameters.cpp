@@ -92,6 +92,10 @@ std::vector<Parameter> motor_parameters() {
           entry("motor.torque_constant", in_motor_kind<&TorqueControl::torque_constant>,
                 "torque per current, which turns currents of the motor into torques",
                 unit<torque_per_current>, positive, UsualRange{1e-3, 10.0}),
+          entry("motor.current_bandwidth", in_motor_kind<&TorqueControl::current_bandwidth>,
+                "bandwidth of the current's control: its lag of the first order delays the torque; "
+                "none: the torque follows at once",
+                unit<angular_frequency>, positive, UsualRange{100.0, 1e5}),
           entry("motor.back_emf_constant", in_motor_kind<&ArmatureControl::back_emf_constant>,
                 "voltage per speed", unit<voltage_per_speed>, not_negative, required,
                 OtherForm{"motor.speed_constant", Relation::reciprocal, &speed_per_voltage},

@@ -33,6 +33,13 @@ std::optional<double> output_limit(const Motor& motor) {
   return Reduction<AsRead>::output_limit(motor);
 }
 
+bool is_cascade(const Drive& drive) {
+  const std::optional<Firmware>& firmware = drive.controller.firmware;
+  if (drive.servo) return false;
+  if (!firmware) return std::holds_alternative<CascadeController>(drive.controller.law);
+  return std::holds_alternative<ODrive>(*firmware) || std::holds_alternative<SimpleFOC>(*firmware);
+}
+
 double output_scale(const Drive& drive) { return Reduction<AsRead>(drive).output_scale(); }
 
 double gain_scale(const Drive& drive) { return Reduction<AsRead>(drive).gain_scale(); }

@@ -41,6 +41,9 @@ bool takes_current_limit(const Motor& motor);
 /// Whether its current limit gives the motor's torque limit: that of a torque-controlled one.
 bool limits_torque_by_current(const Motor& motor);
 
+/// Whether the controller is a cascade, as it is given or as a firmware's registers mean it.
+bool is_cascade(const Drive& drive);
+
 /// Torque at the load per unit of the controller's output, N m per V or N m: that of a
 /// torque-controlled motor is at the joint for gains of the load, else at the motor.
 double output_scale(const Drive& drive);

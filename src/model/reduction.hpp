@@ -209,8 +209,12 @@ class Reduction {
     return reduced;
   }
 
-  /// The lag of the winding, s.
+  /// The lag of the winding, or of the amplifier that controls its current, s.
   Number electrical_time() const {
+    if (const auto* controlled = std::get_if<TorqueControl>(&drive_.motor.kind)) {
+      if (!controlled->current_bandwidth) return 0.0;
+      return 1.0 / datum_(*controlled->current_bandwidth);
+    }
     const auto* armature = std::get_if<ArmatureControl>(&drive_.motor.kind);
     if (armature == nullptr) return 0.0;
     return datum_(armature->inductance) / datum_(armature->resistance);
@@ -261,6 +265,12 @@ class Reduction {
       return {.begins = width, .ends = width, .inner_gain = 0.0, .offset = -width};
     }
     const Compensation& compensation = controller.compensation;
+    const auto* cascade = std::get_if<CascadeController>(&controller.law);
+    if (cascade != nullptr && cascade->speed_limit && cascade->position != 0.0) {
+      using std::abs;
+      const Number limit = datum_(*cascade->speed_limit) / abs(datum_(cascade->position)) * scale;
+      return {.begins = limit, .ends = limit, .outer_gain = 0.0, .offset = limit};
+    }
     if (compensation.backlash == 0.0 || compensation.input == CompensationInput::reference) {
       return {};
     }
@@ -272,10 +282,19 @@ class Reduction {
   drive::FeedforwardOf<Number> feedforward() const {
     const Compensation& compensation = drive_.controller.compensation;
     const bool is_by_reference = compensation.input == CompensationInput::reference;
-    return {.torque = output_scale() * datum_(compensation.friction),
-            .speed = datum_(compensation.friction_speed) * angle_scale(),
-            .half_gap = is_by_reference ? Number(0.5 * datum_(compensation.backlash)) : Number(0.0),
-            .take_up_time = datum_(compensation.take_up_time)};
+    drive::FeedforwardOf<Number> result{
+        .torque = output_scale() * datum_(compensation.friction),
+        .speed = datum_(compensation.friction_speed) * angle_scale(),
+        .half_gap = is_by_reference ? Number(0.5 * datum_(compensation.backlash)) : Number(0.0),
+        .take_up_time = datum_(compensation.take_up_time)};
+    if (const auto* cascade = std::get_if<CascadeController>(&drive_.controller.law)) {
+      // w = position (e + lead ṙ).
+      if (cascade->speed_feedforward != 0.0 && cascade->position != 0.0) {
+        result.lead = datum_(cascade->speed_feedforward) / datum_(cascade->position);
+      }
+      result.inertia = gain_scale() * datum_(cascade->acceleration_feedforward);
+    }
+    return result;
   }
 
   // ---- sensors, contact, signals ----------------------------------------------------------------

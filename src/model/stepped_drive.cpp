@@ -29,11 +29,14 @@ class Stepping {
  public:
   using Form = LinearForm<Number>;
 
-  Stepping(const LinearDrive<Number>& drive, TorqueInput torque, int parts)
+  /// At a tick that reads the position, or at one that does not.
+  Stepping(const LinearDrive<Number>& drive, TorqueInput torque, int parts, bool reads)
       : drive_(drive),
         plant_(drive.plant()),
+        reads_(reads),
         last_counted_(plant_.size() + drive.order()),
-        queue_(last_counted_ + (drive.counts ? 1 : 0)),
+        last_read_(last_counted_ + (drive.counts ? 1 : 0)),
+        queue_(last_read_ + (drive.position_ticks > 1 ? 1 : 0)),
         size_(queue_ + drive.holds.front().age),
         asked_(worked_out(drive.controller.output, drive.controller.direct)),
         now_(asked_),
@@ -57,6 +60,7 @@ class Stepping {
       states.push_back(tick_form(plant_.counted));
       states.back()[LinearInput::speed_reading] = Number(1.0);
     }
+    if (drive_.position_ticks > 1) states.push_back(read_position());
     for (std::size_t i = queue_; i < size_; ++i)
       states.push_back(i == queue_ ? now_ : state(i - 1));
     stepped_.last_counted = last_counted_;
@@ -81,9 +85,9 @@ class Stepping {
     change.of_state[last_counted_] = Number(-1.0);
     return Number(1.0) / drive_.period * std::move(change);
   }
+  Form read_position() const { return reads_ ? tick_form(plant_.position) : state(last_read_); }
   Form worked_out(const std::vector<Number>& of_state, const std::vector<Number>& of_inputs) const {
-    return drive_.worked_out(of_state, of_inputs, tick_form(plant_.position), sensed_speed(),
-                             plant_.size());
+    return drive_.worked_out(of_state, of_inputs, read_position(), sensed_speed(), plant_.size());
   }
 
   /// The plant over a hold with one torque.
@@ -115,7 +119,9 @@ class Stepping {
 
   const LinearDrive<Number>& drive_;
   LinearSystem<Number> plant_;
+  bool reads_;
   std::size_t last_counted_;
+  std::size_t last_read_;
   std::size_t queue_;  ///< torques that wait
   std::size_t size_;
   Form asked_;  ///< torque worked out at the tick
@@ -139,7 +145,20 @@ LinearForm<Number> combination(const std::vector<Number>& row,
 template <class Number>
 SteppedDrive<Number> stepped_drive(const LinearDrive<Number>& drive, TorqueInput torque,
                                    int parts) {
-  return Stepping<Number>(drive, torque, parts).run();
+  SteppedDrive<Number> stepped = Stepping<Number>(drive, torque, parts, true).run();
+  if (drive.position_ticks == 1) return stepped;
+  const SteppedDrive<Number> holding = Stepping<Number>(drive, torque, parts, false).run();
+  for (int i = 1; i < drive.position_ticks; ++i) {
+    stepped.step.slopes = of_each(holding.step.slopes, [&](const LinearForm<Number>& next) {
+      LinearForm<Number> form =
+          combination(next.of_state, stepped.step.slopes, next.of_state.size());
+      for (std::size_t k = 0; k < linear_inputs; ++k) {
+        form.of_inputs[k] = form.of_inputs[k] + next.of_inputs[k];
+      }
+      return form;
+    });
+  }
+  return stepped;
 }
 
 template LinearForm<Interval> combination(const std::vector<Interval>&,

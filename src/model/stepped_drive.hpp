@@ -25,10 +25,12 @@ struct HeldPart {
 };
 
 /// The numbers at a tick are the plant's, the controller's, the position last counted if the speed
-/// is a difference of positions, and the torques that wait, the newest first.
+/// is a difference of positions, that last read if the position controller reads at some ticks
+/// alone, and the torques that wait, the newest first.
 template <class Number>
 struct SteppedDrive {
-  /// Its slopes are the numbers at the next tick. The gap is that which is read at the tick.
+  /// Its slopes are the numbers at the next tick, or at the next that reads the position, with
+  /// inputs that stand still. The gap is that which is read at the tick.
   LinearSystem<Number> step{};
   std::size_t last_counted = 0;
   std::vector<HeldPart<Number>> parts{};
@@ -39,7 +41,8 @@ enum class TorqueInput {
   open        ///< LinearInput::torque, which begins at the tick; the effort is what is requested
 };
 
-/// Each hold is divided into `parts` of equal length. Precondition: a sampled drive.
+/// Each hold is divided into `parts` of equal length; they are those of the first tick.
+/// Precondition: a sampled drive.
 template <class Number>
 SteppedDrive<Number> stepped_drive(const LinearDrive<Number>& drive, TorqueInput torque,
                                    int parts = 1);

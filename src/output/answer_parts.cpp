@@ -254,7 +254,7 @@ std::string lower_bound_text(double radians, const AnswerReport& report) {
 }
 
 std::string below_limit_text(const Ceiling& ceiling) {
-  return ceiling.is_below_limit ? ", if its torque stays below the limit" : "";
+  return ceiling.is_below_limit ? ", if it stays off its limits" : "";
 }
 
 std::optional<double> AnswerReport::widest_backlash() const {

@@ -293,8 +293,9 @@ Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive
 
 namespace {
 
-bool has_torque_limit(const drive::ReducedDrive& drive) {
-  return std::isfinite(drive.torque_limit) || std::isfinite(drive.winding.torque_limit);
+bool has_limit(const drive::ReducedDrive& drive) {
+  return std::isfinite(drive.torque_limit) || std::isfinite(drive.winding.torque_limit) ||
+         drive.error_shape.is_limit();
 }
 
 /// Where the arithmetic is not that of proofs the data were read in it too.
@@ -413,7 +414,7 @@ Analysis analyse_in_full(const SoundDrive& sound, const Wanted& wanted, Progress
   if (wanted.ceiling) {
     Ceiling& ceiling = *analysis.answer.ceiling;
     ceiling.mesh_torque = highest_mean_mesh_torque(sound);
-    ceiling.is_below_limit = has_torque_limit(analysis.reduced);
+    ceiling.is_below_limit = has_limit(analysis.reduced);
   }
   // The motion from which a ceiling is measured stands in the end, unless a sine drives it.
   if (!is_driven(analysis.reduced)) withdraw_if_contradictory(analysis.answer);

@@ -83,6 +83,14 @@ std::vector<Note> notes_on(const SoundDrive& sound) {
     const std::string turns = text_on_counted_turns(drive);
     if (!turns.empty()) notes.push_back({"counted-turns", turns});
   }
+  const auto* cascade = std::get_if<CascadeController>(&drive.controller.law);
+  const bool leads =
+      !drive.controller.firmware && cascade != nullptr &&
+      (cascade->speed_feedforward != 0.0 || cascade->acceleration_feedforward != 0.0);
+  if (leads && std::holds_alternative<double>(sound.settled().reference)) {
+    notes.push_back({"feedforward",
+                     "Feed-forward acts only while the reference moves: it changes nothing here."});
+  }
   if (motor.no_load_current && takes_no_load_current(motor)) {
     notes.push_back({"no-load-current", "The motor's dry friction is " +
                                             text_of(coulomb_torque(motor)) +

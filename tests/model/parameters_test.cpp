@@ -127,6 +127,9 @@ TEST(Parameters, AliasesAndInverseFormsAreTheSameNumber) {
   EXPECT_EQ(get(drive, "loop.error_gain"), 0.75);
   set(drive, "sampling.frequency", 2.0 * std::numbers::pi * 1000.0);  // 1 kHz
   EXPECT_DOUBLE_EQ(get(drive, "sampling.period"), 1e-3);
+  drive.controller.law = CascadeController{};
+  set(drive, "sampling.position_frequency", 2.0 * std::numbers::pi * 250.0);
+  EXPECT_DOUBLE_EQ(get(drive, "sampling.position_period"), 4e-3);
   drive.motor.kind = ArmatureControl{};
   set(drive, "motor.speed_constant", 20.0);
   EXPECT_DOUBLE_EQ(get(drive, "motor.back_emf_constant"), 0.05);

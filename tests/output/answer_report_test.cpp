@@ -62,7 +62,7 @@ TEST(CeilingText, TheMeanMeshTorqueHoldsBelowALimit) {
   AnswerReport report = report_of(Verdict::hunts, swing);
   report.answer.ceiling = {.reason = "too large", .is_below_limit = true, .mesh_torque = 2.0};
   EXPECT_THAT(ceiling_text(report), HasSubstr("mean mesh torque of every motion is within ±2 N m"));
-  EXPECT_THAT(ceiling_text(report), HasSubstr("stays below the limit (proved)"));
+  EXPECT_THAT(ceiling_text(report), HasSubstr("stays\noff its limits (proved)"));
   report.answer.ceiling->is_below_limit = false;
   EXPECT_THAT(ceiling_text(report), Not(HasSubstr("limit")));
   report.answer.ceiling->mesh_torque.reset();

@@ -56,6 +56,9 @@ const std::vector<std::string> controllers = {
     "kind = \"PI\"\nkp = \"1 N m/rad\"\nintegral = \"2 N m/(rad s)\"\ntracking_time = \"3 ms\"",
     "kind = \"cascade\"\nposition = \"3 1/s\"\nspeed = \"2 N m s/rad\"\n"
     "speed_integral = \"4 N m/rad\"",
+    "kind = \"cascade\"\nposition = \"3 1/s\"\nspeed = \"2 N m s/rad\"\n"
+    "speed_limit = \"100 rpm\"\nspeed_feedforward = \"80 %\"\n"
+    "acceleration_feedforward = \"0.2 N m s2/rad\"",
     "kind = \"odrive\"\npos_gain = 20\nvel_gain = 0.16\ntracking_time = \"0.1 s\"",
     "kind = \"moteus\"\npid_position_kp = 4\nrotor_to_output_ratio = 0.25",
     "kind = \"lead-lag\"\ngain = \"3 N m/rad\"\nzero = \"2 rad/s\"\npole = \"20 rad/s\"",

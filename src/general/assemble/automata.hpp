@@ -70,7 +70,7 @@ void add_current_limit(const DriveForms& forms, const DriveMode& mode, hybrid::A
 
 /// The branches of ReducedDrive::error_shape, of a continuous controller.
 void add_error_shape(const DriveForms& forms, const DriveMode& mode, hybrid::AffineMode& built);
-/// The branches that a sampled controller takes after it has read its error.
+/// A sampled controller reads the error that it keeps, and takes the branches of its shape.
 void add_error_reading(const DriveForms& forms, std::size_t clock, const DriveMode& mode,
                        hybrid::AffineMode& built);
 /// The branch at a start, where it is not the inner one: a relay with two levels has none.

@@ -59,16 +59,18 @@ AffineForm DriveForms::measured_position() const {
   return at_.encoder == StateIndices::none ? sensed_position() : number(at_.encoder);
 }
 
-AffineForm DriveForms::reference_speed() const {
+AffineForm DriveForms::rate_of_reference(int order) const {
+  Vector output = reference_generator_.output;
+  for (int i = 0; i < order; ++i) output = reference_generator_.flow.transpose() * output;
   AffineForm form = constant(0.0);
-  form.normal.segment(at_.reference, at_.reference_size) =
-      reference_generator_.flow.transpose() * reference_generator_.output;
+  form.normal.segment(at_.reference, at_.reference_size) = output;
   return form;
 }
 
 AffineForm DriveForms::command(const DriveMode& mode) const {
-  if (at_.taken_up != StateIndices::none) return reference() + number(at_.taken_up);
-  return reference() + sign_of(mode.reference_way) * drive_.feedforward.half_gap;
+  const AffineForm led = reference() + drive_.feedforward.lead * reference_speed();
+  if (at_.taken_up != StateIndices::none) return led + number(at_.taken_up);
+  return led + sign_of(mode.reference_way) * drive_.feedforward.half_gap;
 }
 
 AffineForm DriveForms::shape_input(const DriveMode& mode) const {
@@ -93,9 +95,10 @@ AffineForm DriveForms::shaped_error(const DriveMode& mode) const {
 
 AffineForm DriveForms::feedforward_torque(const DriveMode& mode) const {
   const Feedforward& forward = drive_.feedforward;
+  const AffineForm of_inertia = forward.inertia * rate_of_reference(2);
   const double sign = sign_of(mode.reference_speed);
-  if (sign != 0.0 || forward.speed == 0.0) return constant(sign * forward.torque);
-  return forward.torque / forward.speed * reference_speed();
+  if (sign != 0.0 || forward.speed == 0.0) return of_inertia + sign * forward.torque;
+  return of_inertia + forward.torque / forward.speed * reference_speed();
 }
 
 AffineForm DriveForms::input_form(const DriveMode& mode, const std::vector<double>& factors) const {

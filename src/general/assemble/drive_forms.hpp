@@ -45,8 +45,8 @@ class DriveForms {
   hybrid::AffineForm gap() const { return number(motor_position) - number(load_position); }
   hybrid::AffineForm gap_speed() const { return number(motor_speed) - number(load_speed); }
   hybrid::AffineForm reference() const { return of(reference_generator_, at_.reference); }
-  hybrid::AffineForm reference_speed() const;
-  /// The reference that the controller follows: with the addition for the gap.
+  hybrid::AffineForm reference_speed() const { return rate_of_reference(1); }
+  /// The reference that the controller follows: with its lead and the addition for the gap.
   hybrid::AffineForm command(const DriveMode& mode) const;
   hybrid::AffineForm load_torque() const { return of(load_generator_, at_.load_torque); }
 
@@ -61,7 +61,7 @@ class DriveForms {
   hybrid::AffineForm first_shape_input() const;
   /// What ReducedDrive::error_shape gives.
   hybrid::AffineForm shaped_error(const DriveMode& mode) const;
-  /// Of the reference's speed, N m.
+  /// Of the reference's speed and acceleration, N m.
   hybrid::AffineForm feedforward_torque(const DriveMode& mode) const;
 
   /// Σ factors (r, y, v), of a continuous controller.
@@ -97,6 +97,8 @@ class DriveForms {
   hybrid::AffineFlow flow(const DriveMode& mode) const;
 
  private:
+  /// A derivative of the reference.
+  hybrid::AffineForm rate_of_reference(int order) const;
   hybrid::AffineForm of(const Generator& generator, Eigen::Index at) const;
   hybrid::AffineForm measured_position() const;
   hybrid::AffineForm sensed(double load_share, Eigen::Index motor, Eigen::Index load) const;

@@ -53,6 +53,7 @@ void add_error_reading(const DriveForms& forms, std::size_t clock, const DriveMo
     return forms.modes().index_of(with(mode, &DriveMode::error, branch));
   };
   for (const Branch branch : {Branch::forward, Branch::backward}) {
+    if (!shape.is_present()) break;
     const double threshold = mode.error == branch ? shape.ends : shape.begins;
     reading.alternatives.push_back(
         {{sign_of(branch) * forms.number(at.error) - threshold}, on(branch)});

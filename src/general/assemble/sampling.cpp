@@ -106,7 +106,7 @@ void add_inputs(const DriveForms& forms, const DriveMode& mode, Eigen::Index res
     gain[result] = controller.direct[input];
     return gain;
   };
-  if (forms.drive().error_shape.is_present()) {
+  if (keeps_error(forms.drive())) {
     add_reading(reset, forms.shaped_error(mode), 0.0, gain_of(0));
   } else {
     add_reading(reset, forms.command(mode), 0.0, gain_of(0));
@@ -145,7 +145,7 @@ void add_sampling(const DriveForms& forms, const DriveClocks& clocks, const Driv
   if (remembers_worked_out(forms.drive())) {
     torques.push_back({at.last_worked_out, &DriveMode::worked_out});
   }
-  if (forms.drive().error_shape.is_present()) {
+  if (keeps_error(forms.drive())) {
     add_error_reading(forms, clocks.sample - 1, mode, built);
   }
   built.timed.push_back(tick(forms, "sample", clocks.sample, std::move(reset), mode, torques));

@@ -22,8 +22,11 @@ DriveClocks drive_clocks(const DriveForms& forms) {
   add_signal(forms.load_generator(), forms.at().load_torque, "load torque");
   if (!forms.drive().sampling) return result;
   const Sampling& sampling = *forms.drive().sampling;
-  if (forms.drive().error_shape.is_present()) {
-    clocks.push_back({.name = "reading", .first = 0.0, .period = sampling.period});
+  if (keeps_error(forms.drive())) {
+    clocks.push_back({.name = "reading",
+                      .first = 0.0,
+                      .period = sampling.period,
+                      .every = static_cast<std::size_t>(position_ticks(sampling))});
   }
   result.sample = clocks.size();
   clocks.push_back({.name = "sample", .first = 0.0, .period = sampling.period});

@@ -15,7 +15,7 @@ StateIndices state_indices(const ReducedDrive& drive, Eigen::Index controller_or
       next = indices.last_worked_out + 1;
     }
     if (drive.sampling->speed_by_differences) indices.last_reading = next++;
-    if (drive.error_shape.is_present()) indices.error = next++;
+    if (keeps_error(drive)) indices.error = next++;
   } else if (drive.sensing.resolution > 0.0) {
     indices.encoder = next++;
   }

@@ -29,7 +29,7 @@ struct StateIndices {
   Eigen::Index last_worked_out = none;  ///< torque, the last of those waiting for output
   Eigen::Index last_reading = none;     ///< the position whose differences are the speed
   Eigen::Index encoder = none;          ///< its reading, under a continuous controller
-  Eigen::Index error = none;            ///< as last read, for ReducedDrive::error_shape
+  Eigen::Index error = none;            ///< as last read, where the controller keeps it
   Eigen::Index winding = none;          ///< torque of a winding that lags
   Eigen::Index taken_up = none;         ///< addition to the reference that lags, rad
   Eigen::Index reference = 0;           ///< the first of the reference's generator

@@ -42,7 +42,9 @@ std::vector<std::complex<double>> all_eigenvalues(ReducedDrive drive) {
       eigenvalues(balanced(flow_of(stepped_drive(linear, TorqueInput::requested).step)));
   for (const std::complex<double>& value : all) {
     constexpr double dead_beat = 1e-12;  // decays below rounding within one sample
-    if (std::abs(value) > dead_beat) values.push_back(std::log(value) / linear.period);
+    if (std::abs(value) > dead_beat) {
+      values.push_back(std::log(value) / position_period(*drive.sampling));
+    }
   }
   return values;
 }
@@ -83,7 +85,7 @@ TimeScales time_scales(const ReducedDrive& drive) {
     }
   }
   constexpr double samples = 10.0;  // shortest swing of interest, in sampling periods
-  if (drive.sampling) swing = std::max(swing, samples * drive.sampling->period);
+  if (drive.sampling) swing = std::max(swing, samples * position_period(*drive.sampling));
   return {swing, std::isfinite(slowest_decay) ? 1.0 / slowest_decay : 0.0};
 }
 

@@ -47,7 +47,7 @@ bool may_creep(const std::vector<Standstill>& all, const Watch& watch,
 /// Whether slips are in proportion to the errors before them: integral action alone ends a
 /// standstill, and neither an encoder's step nor a dead band gives them a size.
 bool slips_in_proportion(const ReducedDrive& drive) {
-  return has_coulomb_friction_alone(drive) && !drive.error_shape.is_present() &&
+  return has_coulomb_friction_alone(drive) && !drive.error_shape.changes_small_errors() &&
          drive.sensing.resolution == 0.0 && integrates(drive.controller);
 }
 

@@ -57,7 +57,7 @@ bool CycleClosing::may_go_round(const PeriodicOrbit& orbit, int times) const {
     if (!has_event) return false;
   }
   if (!setting_.drive.sampling) return true;
-  const double ticks = orbit.period / (times * setting_.drive.sampling->period);
+  const double ticks = orbit.period / (times * position_period(*setting_.drive.sampling));
   return agree(ticks, std::round(ticks), 1.0, tolerances_.whole_ticks);
 }
 

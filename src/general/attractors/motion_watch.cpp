@@ -501,7 +501,7 @@ bool shrink_on_average(const std::vector<Sample>& turns, const RestTolerances& t
 /// a swing from one half as large.
 bool has_no_small_size(const ReducedDrive& drive) {
   return !has_dry_friction(drive) && !drive.sensing.reads_steps() &&
-         !drive.error_shape.is_present() && is_mirrored(drive);
+         !drive.error_shape.changes_small_errors() && is_mirrored(drive);
 }
 
 }  // namespace

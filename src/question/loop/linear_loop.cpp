@@ -29,6 +29,7 @@ using Complex = std::complex<double>;
 struct LoopResponse {
   Complex open;    ///< L
   Complex closed;  ///< θ_L/r
+  Complex by_torque;  ///< θ_L per torque that is added to the controller's
 };
 
 /// What the reference adds at once. Of a form `reference` is its effect together with an equal
@@ -75,7 +76,7 @@ class LoopTransfer {
     const Eigen::VectorXd rates = solved(flow, Eigen::VectorXd(-inputs));
     constexpr double rounding = 1e-9;
     if (!(std::abs((load_.real() * rates).value() - 1.0) <= rounding)) return std::nullopt;
-    return std::abs((load_.real() * solved(flow, rates)).value());
+    return -(load_.real() * solved(flow, rates)).value();
   }
 
  private:
@@ -87,7 +88,8 @@ class LoopTransfer {
         inputs_);
     const Complex open = -(effort_ * states.col(0)).value();
     const Complex requested = (effort_ * states.col(1)).value() + effort_by_reference_;
-    return {open, requested * (load_ * states.col(0)).value() / (1.0 + open)};
+    const Complex by_torque = (load_ * states.col(0)).value() / (1.0 + open);
+    return {open, requested * by_torque, by_torque};
   }
 
   double period_ = 0.0;  ///< s; 0 of a continuous controller
@@ -246,14 +248,19 @@ void add_gain_margin(const LoopTransfer& loop, const std::vector<double>& freque
 
 /// LinearLoop::lag. What a controller adds because of its reference's speed belongs into the inputs
 /// by the reference (LoopTransfer).
-std::optional<double> lag_of(const LoopTransfer& loop, const Signal& reference) {
+std::optional<double> lag_of(const LoopTransfer& loop, const Signal& reference,
+                             const Feedforward& forward) {
   if (const auto* ramp = std::get_if<Ramp>(&reference)) {
     const std::optional<double> lag = loop.lag_of_ramp();
-    return lag ? std::optional(std::abs(ramp->rate) * *lag) : std::nullopt;
+    return lag ? std::optional(std::abs(ramp->rate * (*lag - forward.lead))) : std::nullopt;
   }
   const auto* sine = std::get_if<Sine>(&reference);
   if (sine == nullptr) return std::nullopt;
-  return std::abs(sine->amplitude) * std::abs(1.0 - loop.at(sine->frequency).closed);
+  const LoopResponse response = loop.at(sine->frequency);
+  const Complex derivative{0.0, sine->frequency};
+  const Complex followed = response.closed * (1.0 + forward.lead * derivative) +
+                           response.by_torque * forward.inertia * derivative * derivative;
+  return std::abs(sine->amplitude) * std::abs(1.0 - followed);
 }
 
 }  // namespace
@@ -263,13 +270,14 @@ std::optional<LinearLoop> loop_figures(const ReducedDrive& drive) {
   if (drive.error_shape.is_relay()) return std::nullopt;
   LinearLoop figures;
   figures.is_stable = loop_decays(linear_drive(EnclosedDrive(drive)));
+  if (drive.sampling && position_ticks(*drive.sampling) > 1) return figures;
   const std::vector<double> frequencies = sampled_frequencies(drive);
   if (!figures.is_stable || frequencies.empty()) return figures;
   const LoopTransfer loop(linear_drive(drive));
   figures.bandwidth = bandwidth_of(loop, frequencies);
   add_phase_margin(loop, frequencies, figures);
   add_gain_margin(loop, frequencies, figures);
-  figures.lag = lag_of(loop, settled(drive.reference));
+  figures.lag = lag_of(loop, settled(drive.reference), drive.feedforward);
   return figures;
 }
 

@@ -25,13 +25,16 @@ namespace gearlash::drive {
 ///
 /// The plant has inertia, viscous friction, the linearised weight, and the winding. With rigid
 /// faces both shafts turn as one. With compliant faces they are joined by stiffness and damping.
-/// Left out: the gap, dry friction, limits of torque and current, steps of encoders, a dead band
-/// and its compensation, feedforward, load torque. Margins are those of a stable loop: of another
-/// one they do not say how far it is from the border.
+/// Left out: the gap, dry friction, limits of torque, current and speed, steps of encoders, a dead
+/// band and its compensation, feedforward, load torque. Margins are those of a stable loop: of
+/// another one they do not say how far it is from the border.
 ///
 /// A sampled loop is exact: z = e^{jωT}, the plant from tick to tick under the held and delayed
 /// torque, the speed from a tachometer or from differences, and θ_L at the ticks; so is the lag.
 /// Frequencies end at half the sampling frequency.
+///
+/// Where the position controller runs at some ticks alone, the response to a sine has other
+/// frequencies beside its own: there is nothing but whether the loop is stable.
 ///
 /// Crossings are searched among 64 frequencies a decade, more at each eigenvalue of the loop, and
 /// at the extremes between them; then they are refined to rounding. A pair of crossings within one

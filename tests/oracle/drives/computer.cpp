@@ -165,10 +165,17 @@ double Computer::derivative_part(double error, double speed) {
   return gains.derivative / gains.filter * (error - low_pass(error));
 }
 
-double Computer::cascade(double error, double speed) {
+double Computer::asked_speed(double error, double time) const {
+  const PlainController& gains = drive_.controller;
+  const double rate = drive_.reference_course.rate_at(time);
+  return std::clamp(gains.position * error + gains.speed_share * rate, -gains.speed_limit,
+                    gains.speed_limit);
+}
+
+double Computer::cascade(double speed) {
   const PlainController& gains = drive_.controller;
   const double filtered = gains.filter > 0.0 ? low_pass(speed) : speed;
-  const double speed_error = gains.position * error - filtered;
+  const double speed_error = asked_speed_ - filtered;
   const double direct = gains.proportional * speed_error;
   if (gains.integral == 0.0) return direct;
   return direct + integrate(gains.integral * speed_error);
@@ -217,11 +224,13 @@ double Computer::system(const std::array<double, 3>& inputs) {
 /// Of the reference's motion.
 double Computer::feed_forward(double time) const {
   const PlainController& gains = drive_.controller;
-  if (gains.friction == 0.0) return 0.0;
+  const double of_inertia =
+      gains.inertia == 0.0 ? 0.0 : gains.inertia * drive_.reference_course.acceleration_at(time);
+  if (gains.friction == 0.0) return of_inertia;
   const double rate = drive_.reference_course.rate_at(time);
   if (gains.friction_speed > least_rate_)
-    return gains.friction * std::clamp(rate / gains.friction_speed, -1.0, 1.0);
-  return std::abs(rate) > least_rate_ ? std::copysign(gains.friction, rate) : 0.0;
+    return of_inertia + gains.friction * std::clamp(rate / gains.friction_speed, -1.0, 1.0);
+  return of_inertia + (std::abs(rate) > least_rate_ ? std::copysign(gains.friction, rate) : 0.0);
 }
 
 void Computer::sample(const ShaftReadings& shafts, double time) {
@@ -231,11 +240,15 @@ void Computer::sample(const ShaftReadings& shafts, double time) {
   const double asked = command(time);
   const double speed = sampled_speed(shafts);
   const PlainController& gains = drive_.controller;
-  const double error = law_error(asked - position, speed);
+  if (ticks_ == 0) {
+    set(error_, law_error(asked - position, speed));
+    set(asked_speed_, asked_speed(error_, time));
+  }
+  ticks_ = (ticks_ + 1) % gains.position_ticks;
   const bool is_shaped = gains.rule != PlainErrorRule::as_it_is;
-  const double computed = (gains.law == PlainLaw::cascade ? cascade(error, speed)
-                           : gains.law == PlainLaw::PID   ? pid(error, speed)
-                           : is_shaped                    ? system({error, 0.0, speed})
+  const double computed = (gains.law == PlainLaw::cascade ? cascade(speed)
+                           : gains.law == PlainLaw::PID   ? pid(error_, speed)
+                           : is_shaped                    ? system({error_, 0.0, speed})
                                                           : system({asked, position, speed})) +
                           feed_forward(time);
   if (output_after_ == drive_.period) set(asked_, waiting_.front());

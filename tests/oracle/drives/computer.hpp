@@ -48,7 +48,8 @@ class Computer {
   double sampled_speed(const ShaftReadings& shafts);
   double command(double time);
   double law_error(double error, double speed);
-  double cascade(double error, double speed);
+  [[nodiscard]] double asked_speed(double error, double time) const;
+  double cascade(double speed);
   double pid(double error, double speed);
   double system(const std::array<double, 3>& inputs);
   double integrate(double rate);
@@ -64,6 +65,9 @@ class Computer {
   double integral_ = 0.0;
   double filter_ = 0.0;
   std::vector<double> states_, shifted_;  ///< of a system
+  int ticks_ = 0;                         ///< since the position controller's last one
+  double error_ = 0.0;                    ///< that the law receives
+  double asked_speed_ = 0.0;              ///< rad/s, of a cascade
   double branch_ = 0.0;                   ///< of the band: −1, 0, 1
   double way_ = 0.0;                      ///< of the reference's last motion
   double taken_up_ = 0.0;                 ///< rad

@@ -24,7 +24,7 @@ TEST(PropertyFollowed, StartsDoForLongerWhatTheAnswerSays) {
   for (const auto& [kind, seed] :
        {std::pair{DriveKind::filtered_cascade, 4U}, std::pair{DriveKind::weight_at_limit, 2U},
         std::pair{DriveKind::state_space, 2U}, std::pair{DriveKind::moving_reference, 2U},
-        std::pair{DriveKind::industrial, 6U}}) {
+        std::pair{DriveKind::two_rates, 1U}, std::pair{DriveKind::industrial, 6U}}) {
     const Drive drive = random_drive(seed, kind);
     const Answer answer = analyse(drive, {.proofs = false});
     const FollowedDrive followed = follow_all(drive, answer, {.most_events = 100'000});

@@ -240,6 +240,15 @@ double Mechanism::cut_step(double remaining, double step, const AppliedTorque& t
 }
 
 void Mechanism::advance(double step, const AppliedTorque& torque) {
+  if (drive_.current_rate == 0.0) return advance_shafts(step, torque);
+  const double tended = std::clamp(torque.held, -drive_.limit, drive_.limit);
+  const double off = current_ - tended;
+  const double steps = drive_.current_rate * step;
+  current_ = tended + off * std::exp(-steps);
+  advance_shafts(step, {.held = tended - off * std::expm1(-steps) / steps});
+}
+
+void Mechanism::advance_shafts(double step, const AppliedTorque& torque) {
   if (motor_way_ == 0 && load_way_ == 0) {
     break_away(torque);
     if (motor_way_ == 0 && load_way_ == 0) return;  // nothing changes as long as the torque holds

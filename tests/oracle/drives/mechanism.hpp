@@ -7,7 +7,7 @@
 namespace gearlash::oracle {
 
 /// The motor's torque: held − stiffness (y − PlainDrive::reference) − damping v, within the limit.
-/// A sampled controller holds it.
+/// A sampled controller holds it. With a current_rate it tends to held: a step has the mean torque.
 struct AppliedTorque {
   double held = 0.0;       ///< N m
   double stiffness = 0.0;  ///< N m/rad
@@ -46,6 +46,7 @@ class Mechanism {
   };
   enum class Cut { none, motor_stops, load_stops, meets_forward, meets_backward };
 
+  void advance_shafts(double step, const AppliedTorque& torque);
   [[nodiscard]] double motor_torque(const ShaftReadings& at, const AppliedTorque& torque) const;
   [[nodiscard]] double load_torque(const ShaftReadings& at) const;
   [[nodiscard]] double mesh_torque(const ShaftReadings& at) const;
@@ -66,7 +67,8 @@ class Mechanism {
   ShaftReadings now_;
   int motor_way_ = 0;  ///< direction of the dry friction; 0: sticks
   int load_way_ = 0;
-  int face_ = 0;  ///< of rigid faces in contact
+  double current_ = 0.0;  ///< N m, the torque of the motor's current, with a current_rate
+  int face_ = 0;          ///< of rigid faces in contact
   double left_out_ = 0.0;
   double lowest_load_ = 0.0, highest_load_ = 0.0, lowest_motor_ = 0.0, highest_motor_ = 0.0;
 };

@@ -23,6 +23,7 @@ PlainShaft shaft_of(double inertia, const Friction& friction, double ratio) {
 void set_motor(const Motor& motor, const Gearbox& gearbox, PlainDrive& plain) {
   const auto* controlled = std::get_if<TorqueControl>(&motor.kind);
   refuse(controlled == nullptr, "the simulator knows torque-controlled motors only");
+  plain.current_rate = controlled->current_bandwidth.value_or(0.0);
   const double torque_per_current = controlled->torque_constant.value_or(0.0);
   Friction friction = motor.friction;
   if (motor.no_load_current) friction.coulomb = torque_per_current * *motor.no_load_current;
@@ -66,6 +67,8 @@ void set_law(const CascadeController& cascade, double scale, PlainController& pl
   plainly.integral = scale * cascade.speed_integral;
   plainly.tracking_time = cascade.tracking_time;
   plainly.filter = cascade.filter;
+  plainly.inertia = scale * cascade.acceleration_feedforward;
+  plainly.speed_share = cascade.speed_feedforward;
 }
 
 void set_law(const PID& pid, double scale, PlainController& plainly) {
@@ -172,6 +175,9 @@ void set_controller(const Controller& controller, double ratio, PlainDrive& plai
   const bool is_relay = std::holds_alternative<RelayController>(controller.law);
   const double scale = is_relay ? torque : torque / angle;
   std::visit([&](const auto& law) { set_law(law, scale, plainly); }, controller.law);
+  const auto* cascade = std::get_if<CascadeController>(&controller.law);
+  if (cascade != nullptr && cascade->speed_limit)
+    plainly.speed_limit = angle * *cascade->speed_limit;
   set_error_rule(controller, angle, plainly);
   set_compensation(controller.compensation, torque, angle, plainly);
 }
@@ -179,6 +185,10 @@ void set_controller(const Controller& controller, double ratio, PlainDrive& plai
 void set_sampling(const Sampling& sampling, PlainDrive& plain) {
   plain.period = sampling.period;
   plain.delay = sampling.delay;
+  if (sampling.position_period) {
+    plain.controller.position_ticks =
+        static_cast<int>(std::lround(*sampling.position_period / sampling.period));
+  }
   plain.has_tachometer = !sampling.speed_by_differences;
   plain.blend = sampling.method == Discretization::tustin     ? 0.5
                 : sampling.method == Discretization::backward ? 1.0
@@ -198,7 +208,7 @@ double PlainDrive::small_length() const {
 bool PlainDrive::needs_computer() const {
   return controller.law != PlainLaw::PID || controller.integral != 0.0 || controller.filter > 0.0 ||
          controller.rule != PlainErrorRule::as_it_is || controller.friction != 0.0 ||
-         controller.reference_half_gap != 0.0 || step > 0.0;
+         controller.reference_half_gap != 0.0 || step > 0.0 || current_rate > 0.0;
 }
 
 PlainDrive plain_drive(const Drive& drive) {

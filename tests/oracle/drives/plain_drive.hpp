@@ -45,11 +45,12 @@ enum class PlainErrorRule {
 /// What the controller computes, with e = r − y of the position read and v the speed read:
 ///   PID:     proportional e + integral ∫e dt − derivative v, or, with a `filter`, with the
 ///            derivative passed through 1/(filter s + 1): of the speed, or of the error;
-///   cascade: proportional (w − f) + integral ∫(w − f) dt, where w = position e and f is v, passed
-///            through 1/(filter s + 1);
+///   cascade: proportional (w − f) + integral ∫(w − f) dt, where w = position e + speed_share ṙ
+///            within ± speed_limit, worked out at every position_ticks-th sample, and f is v,
+///            passed through 1/(filter s + 1);
 ///   system:  PlainSystem.
-/// It adds friction sat(ṙ/friction_speed). r is the reference and reference_half_gap on the side of
-/// its last motion, with a lag.
+/// It adds friction sat(ṙ/friction_speed) + inertia r̈. r is the reference and reference_half_gap on
+/// the side of its last motion, with a lag.
 enum class PlainLaw { PID, cascade, system };
 
 struct PlainController {
@@ -70,6 +71,10 @@ struct PlainController {
   double take_up_time = 0.0;        ///< s, ... with this time constant
   double friction = 0.0;            ///< N m
   double friction_speed = 0.0;      ///< rad/s; 0: by the sign of ṙ
+  double inertia = 0.0;             ///< N m s²/rad
+  double speed_share = 0.0;         ///< 0 … 1
+  double speed_limit = std::numeric_limits<double>::infinity();  ///< rad/s
+  int position_ticks = 1;
 };
 
 struct PlainDrive {
@@ -87,6 +92,8 @@ struct PlainDrive {
   bool has_tachometer = false;  ///< the speed is exact, no difference of positions
   PlainController controller{};
   double limit = std::numeric_limits<double>::infinity();  ///< N m, of the motor's torque
+  /// 1/s: the torque tends to the one that is asked for at this rate; 0: it is that.
+  double current_rate = 0.0;
   /// s; 0: a continuous controller. One that needs a computer is sampled as fast as the simulator
   /// steps.
   double period = 0.0;

@@ -81,6 +81,12 @@ double PlainCourse::rate_at(double time) const {
   return piece.rate + std::max(0.0, time - piece.start) * piece.acceleration;
 }
 
+double PlainCourse::acceleration_at(double time) const {
+  if (amplitude != 0.0) return -frequency * frequency * at(time);
+  const bool is_before = pieces.empty() || time < pieces.front().start;
+  return is_before ? 0.0 : piece_at(time).acceleration;
+}
+
 double PlainCourse::fastest() const {
   double fastest = std::abs(amplitude * frequency);
   for (const Piece& piece : pieces) fastest = std::max(fastest, std::abs(piece.rate));

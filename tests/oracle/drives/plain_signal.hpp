@@ -22,8 +22,9 @@ struct PlainCourse {
 
   [[nodiscard]] bool moves() const { return amplitude != 0.0 || !pieces.empty(); }
   [[nodiscard]] double at(double time) const;
-  [[nodiscard]] double rate_at(double time) const;  ///< per s; at a corner that after it
-  [[nodiscard]] double fastest() const;             ///< per s, the largest |rate|
+  [[nodiscard]] double rate_at(double time) const;          ///< per s; at a corner that after it
+  [[nodiscard]] double acceleration_at(double time) const;  ///< per s²; likewise
+  [[nodiscard]] double fastest() const;                     ///< per s, the largest |rate|
   /// Its largest size; of a ramp where that starts.
   [[nodiscard]] double size() const;
   /// Per s, of a ramp; else 0.

@@ -312,9 +312,7 @@ Drive state_space(Dice& dice) {
   return drive;
 }
 
-Drive moving_reference(Dice& dice) {
-  Drive drive;
-  draw_drive(dice, drive);
+void draw_reference(Dice& dice, Drive& drive) {
   const double gap = drive.gearbox.backlash;
   const double way = gap * dice.log_between(0.3, 1000.0);
   const double rate = 2.0 * std::numbers::pi * dice.log_between(0.05, 5.0);
@@ -327,6 +325,34 @@ Drive moving_reference(Dice& dice) {
     drive.reference =
         TrapezoidSignal{.to = way, .speed = way * rate, .acceleration = 4.0 * way * rate * rate};
   }
+}
+
+Drive moving_reference(Dice& dice) {
+  Drive drive;
+  draw_drive(dice, drive);
+  draw_reference(dice, drive);
+  return drive;
+}
+
+Drive two_rates(Dice& dice) {
+  Drive drive;
+  const Scale scale = draw_drive(dice, drive, Law::cascade);
+  auto& cascade = std::get<CascadeController>(drive.controller.law);
+  const double rate = cascade.speed / scale.inertia;
+  if (dice.chance(0.7)) {
+    drive.motor.kind = TorqueControl{.current_bandwidth = rate * dice.log_between(4.0, 30.0)};
+  }
+  const double ticks = std::floor(dice.between(1.0, 9.0));
+  cascade.position /= std::sqrt(ticks);
+  drive.sampling->position_period = ticks * drive.sampling->period;
+  if (dice.chance(0.5)) {
+    const double length =
+        drive.gearbox.backlash * drive.gearbox.ratio * dice.log_between(0.3, 30.0);
+    cascade.speed_limit = Dice::rounded(cascade.position * length);
+  }
+  if (dice.chance(0.5)) draw_reference(dice, drive);
+  if (dice.chance(0.5)) cascade.speed_feedforward = Dice::rounded(dice.between(0.0, 1.0));
+  if (dice.chance(0.3)) cascade.acceleration_feedforward = scale.inertia;
   return drive;
 }
 
@@ -395,6 +421,8 @@ Drive drawn(Dice& dice, DriveKind kind) {
       return state_space(dice);
     case DriveKind::moving_reference:
       return moving_reference(dice);
+    case DriveKind::two_rates:
+      return two_rates(dice);
     case DriveKind::without_integral:
       return without_integral(dice);
     case DriveKind::extreme:

@@ -30,6 +30,8 @@ enum class DriveKind : std::uint8_t {
   state_space,       ///< PID with notches as state space, order 2 … 6; restitution up to 0.9,
                      ///< inertia ratio 0.02 … 50
   moving_reference,  ///< a sine, a ramp or a trapezoid
+  two_rates,  ///< a cascade at two rates, a current loop, a limit of the speed, feed-forward of
+              ///< a reference that moves
   without_integral,  ///< PD control, rigid faces, a third each with a dead band, a constant load
                      ///< torque and a weight
   extreme            ///< a gap of 1e-6 rad, encoder steps beyond the gap, gains 3 … 30 times too

@@ -56,7 +56,8 @@ TEST(PropertyRandomDrive, HasNoComputerWhereItIsContinuous) {
 
 constexpr std::array new_kinds = {DriveKind::filtered_cascade, DriveKind::weight_at_limit,
                                   DriveKind::state_space,      DriveKind::moving_reference,
-                                  DriveKind::without_integral, DriveKind::extreme};
+                                  DriveKind::two_rates,        DriveKind::without_integral,
+                                  DriveKind::extreme};
 
 TEST(PropertyRandomDrive, OfEveryKindIsSoundAndReadsBack) {
   for (const DriveKind kind : new_kinds) {
@@ -96,6 +97,12 @@ TEST(PropertyRandomDrive, HasWhatItsKindSays) {
     seen.insert("order " + std::to_string(order));
     const Drive moving = random_drive(seed, DriveKind::moving_reference);
     seen.insert("signal " + std::to_string(moving.reference->index()));
+    const Drive two_rates = random_drive(seed, DriveKind::two_rates);
+    const PlainDrive plain = plain_drive(two_rates);
+    if (plain.controller.position_ticks > 1) seen.insert("two rates");
+    if (plain.current_rate > 0.0) seen.insert("current loop");
+    if (plain.controller.speed_limit < 1e30) seen.insert("speed limit");
+    if (plain.controller.inertia > 0.0 && two_rates.reference) seen.insert("acceleration fed");
     const Drive extreme = random_drive(seed, DriveKind::extreme);
     if (extreme.gearbox.backlash == 1e-6) seen.insert("small gap");
     if (extreme.sampling->delay > extreme.sampling->period) seen.insert("long delay");
@@ -108,7 +115,8 @@ TEST(PropertyRandomDrive, HasWhatItsKindSays) {
   EXPECT_EQ(seen,
             (std::set<std::string>{"dead band", "friction compensated", "backlash compensated",
                                    "order 2", "order 4", "order 6", "signal 2", "signal 3",
-                                   "signal 4", "small gap", "long delay", "wide step"}));
+                                   "signal 4", "small gap", "long delay", "wide step", "two rates",
+                                   "current loop", "speed limit", "acceleration fed"}));
 }
 
 TEST(PropertyRandomDrive, ReadsBackFromItsFile) {

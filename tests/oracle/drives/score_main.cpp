@@ -59,6 +59,7 @@ std::map<std::string, MakeDrive> kinds() {
           {"weight-at-limit", of(DriveKind::weight_at_limit)},
           {"state-space", of(DriveKind::state_space)},
           {"moving-reference", of(DriveKind::moving_reference)},
+          {"two-rates", of(DriveKind::two_rates)},
           {"without-integral", of(DriveKind::without_integral)},
           {"extreme", of(DriveKind::extreme)},
           {"frictionless", gearlash::oracle::frictionless_drive}};

@@ -38,6 +38,9 @@ std::string obstacle(const ReducedDrive& drive) {
     return "faces with damping: it can be exceeded (docs/explanation/ceiling.md)";
   }
   if (drive.error_shape.is_relay()) return "a relay: the controller is not linear";
+  if (drive.sampling && drive::position_ticks(*drive.sampling) > 1) {
+    return "the position controller runs at some ticks alone: no bound is known";
+  }
   return {};
 }
 
@@ -66,8 +69,10 @@ std::vector<Source> sources_of(const EnclosedDrive& drive) {
     if (counts) add("speed encoder", {LinearInput::speed_reading}, of_speed);
   }
   // What it changes the error by is an error of the position.
-  add(form.error_shape.inner_gain == 0.0 ? "dead band" : "backlash compensation",
-      {LinearInput::position_reading}, numbers.error_shape.largest_change());
+  if (!form.error_shape.is_limit()) {
+    add(form.error_shape.inner_gain == 0.0 ? "dead band" : "backlash compensation",
+        {LinearInput::position_reading}, numbers.error_shape.largest_change());
+  }
   if (!std::holds_alternative<double>(form.reference)) {
     add(friction_compensation, {LinearInput::torque_on_motor}, abs(numbers.feedforward.torque));
     add("backlash compensation", {LinearInput::position_reading},
@@ -249,8 +254,9 @@ Ceiling ceiling_of(const EnclosedDrive& drive) {
     return ceiling;
   }
   std::vector<ScaledSource> sources = scaled_sources(drive, *loop);
-  const bool has_current_limit = std::isfinite(form.winding.torque_limit);
-  ceiling.is_below_limit = std::isfinite(form.torque_limit) || has_current_limit;
+  const bool has_other_limit =
+      std::isfinite(form.winding.torque_limit) || form.error_shape.is_limit();
+  ceiling.is_below_limit = std::isfinite(form.torque_limit) || has_other_limit;
   const std::string of_carried = obstacle_of_carried(form, linear);
   std::optional<Carried> carried;
   if (of_carried.empty() && (ceiling.is_below_limit || loop->reads_gap_speed())) {
@@ -281,7 +287,7 @@ Ceiling ceiling_of(const EnclosedDrive& drive) {
     return ceiling;
   }
   if (!ceiling.effort) ceiling.effort_reason = obstacle_of_gap_speed(of_carried);
-  if (!carried || !ceiling.effort || !ceiling.is_below_limit || has_current_limit) return ceiling;
+  if (!carried || !ceiling.effort || !ceiling.is_below_limit || has_other_limit) return ceiling;
   margin.left = drive.numbers().torque_limit - abs(carried->requested) - effort;
   ceiling.meets_limit = margin.left.low >= 0.0;
   if (loop->reads_gap_speed()) {

@@ -28,21 +28,35 @@ constexpr std::string_view monotone_from_zero[] = {
     "motor.breakaway",        "motor.no_load_current", "gearbox.inertia", "load.friction",
     "load.coulomb",           "load.breakaway",        "load.gravity",    "contact.restitution",
     "controller.proportional"};
-constexpr std::string_view monotone_above_zero[] = {
-    "servo.inertia_ratio",      "servo.backlash",
-    "servo.natural_frequency",  "motor.torque_constant",
-    "motor.back_emf_constant",  "motor.resistance",
-    "motor.inductance",         "motor.torque_per_volt",
-    "motor.torque_per_speed",   "motor.inertia",
-    "motor.voltage_limit",      "motor.torque_limit",
-    "motor.current_limit",      "gearbox.ratio",
-    "gearbox.backlash",         "load.inertia",
-    "contact.stiffness",        "sensor.resolution",
-    "sensor.counts_per_turn",   "controller.integral",
-    "controller.derivative",    "controller.filter",
-    "controller.tracking_time", "controller.position",
-    "controller.speed",         "controller.speed_integral",
-    "controller.gain"};
+constexpr std::string_view monotone_above_zero[] = {"servo.inertia_ratio",
+                                                    "servo.backlash",
+                                                    "servo.natural_frequency",
+                                                    "motor.torque_constant",
+                                                    "motor.back_emf_constant",
+                                                    "motor.resistance",
+                                                    "motor.inductance",
+                                                    "motor.torque_per_volt",
+                                                    "motor.torque_per_speed",
+                                                    "motor.inertia",
+                                                    "motor.voltage_limit",
+                                                    "motor.torque_limit",
+                                                    "motor.current_limit",
+                                                    "motor.current_bandwidth",
+                                                    "gearbox.ratio",
+                                                    "controller.speed_limit",
+                                                    "gearbox.backlash",
+                                                    "load.inertia",
+                                                    "contact.stiffness",
+                                                    "sensor.resolution",
+                                                    "sensor.counts_per_turn",
+                                                    "controller.integral",
+                                                    "controller.derivative",
+                                                    "controller.filter",
+                                                    "controller.tracking_time",
+                                                    "controller.position",
+                                                    "controller.speed",
+                                                    "controller.speed_integral",
+                                                    "controller.gain"};
 
 bool is_in(std::span<const std::string_view> paths, std::string_view path) {
   return contains(paths, path);
@@ -71,6 +85,7 @@ bool have_one_form(const EnclosedDrive& enclosed, const EnclosedDrive& widened) 
          enclosed.controller().order() == widened.controller().order() &&
          drive::is_joined(one) == drive::is_joined(other) &&
          (one.winding.time_constant > 0.0) == (other.winding.time_constant > 0.0) &&
+         one.error_shape.is_limit() == other.error_shape.is_limit() &&
          std::isfinite(one.torque_limit) == std::isfinite(other.torque_limit) &&
          std::isfinite(one.winding.torque_limit) == std::isfinite(other.winding.torque_limit);
 }

@@ -116,6 +116,8 @@ Feedback feedback_of(const ReducedDrive& drive, TorqueGiven torque) {
                           RationalFunction(drive.sampling->period);
     }
     delay = 0.5 * drive.sampling->period + drive.sampling->delay;
+    const double kept = position_period(*drive.sampling) - drive.sampling->period;
+    if (kept > 0.0) transfer.position = transfer.position * delay_approximation(0.5 * kept);
   }
   const RationalFunction minus(-1.0);
   if (torque == TorqueGiven::as_asked) {
@@ -186,7 +188,8 @@ std::vector<Assumption> omissions(const ReducedDrive& drive, DescribedPart part,
   add(is_friction && (drive.motor.friction.falls() || drive.load.friction.falls()),
       Assumption::falling_friction_left_out);
   add(drive.sampling.has_value(), Assumption::sampling_as_delay);
-  add(delay_is_rational, Assumption::delay_as_rational);
+  const bool keeps = drive.sampling && position_ticks(*drive.sampling) > 1;
+  add(delay_is_rational || keeps, Assumption::delay_as_rational);
   add(drive.sensing.reads_steps(), Assumption::encoder_left_out);
   add(!is_always_0(drive.reference) || !is_always_0(drive.load_torque),
       Assumption::signals_left_out);
@@ -409,7 +412,7 @@ const char* name_of(Assumption assumption) {
       "computational delay",
       "this delay inside the loop is a rational function of order 4", "encoders have no steps",
       "reference and load torque are 0",
-      "the controller receives the error itself, without dead band or compensation",
+      "the controller receives the error itself, without dead band, limit of speed or compensation",
       "dry friction does not fall with speed");
   return descriptions[assumption];
 }

@@ -208,12 +208,17 @@ class Equilibria {
   void add_winding(const TorqueLevel& level, const ErrorBranch& branch) {
     const double rate = winding_rate(drive_);
     const auto standing_still = standing_requests(drive_, reference_, std::nullopt);
-    if (level.side == 0.0 || !(branch.gain > 0.0) || rate == 0.0 || !standing_still) return;
+    if (level.side == 0.0 || rate == 0.0 || !standing_still) return;
+    const StandingRequests any{standing_still->one, {Vector2d(1.0, 0.0), Vector2d(0.0, 1.0)}};
+    if (branch.gain == 0.0) {  // one error, whatever the reading
+      if (rate * branch.offset * level.side < 0.0) add_with(level, branch, any);
+      return;
+    }
+    if (!(branch.gain > 0.0)) return;
     ErrorBranch winding = branch;
     const double still = (standing_still->one[0] - reference_ + branch.offset) / branch.gain;
     double& end = rate * level.side > 0.0 ? winding.low : winding.high;
     end = rate * level.side > 0.0 ? std::max(end, still) : std::min(end, still);
-    const StandingRequests any{standing_still->one, {Vector2d(1.0, 0.0), Vector2d(0.0, 1.0)}};
     if (winding.low < winding.high) add_with(level, winding, any);
   }
 
