@@ -27,8 +27,8 @@ using Complex = std::complex<double>;
 
 /// At one frequency.
 struct LoopResponse {
-  Complex open;    ///< L
-  Complex closed;  ///< θ_L/r
+  Complex open;       ///< L
+  Complex closed;     ///< θ_L/r
   Complex by_torque;  ///< θ_L per torque that is added to the controller's
 };
 
@@ -246,8 +246,7 @@ void add_gain_margin(const LoopTransfer& loop, const std::vector<double>& freque
   }
 }
 
-/// LinearLoop::lag. What a controller adds because of its reference's speed belongs into the inputs
-/// by the reference (LoopTransfer).
+/// LinearLoop::lag. Feed-forward leads the reference, and adds torque by its acceleration.
 std::optional<double> lag_of(const LoopTransfer& loop, const Signal& reference,
                              const Feedforward& forward) {
   if (const auto* ramp = std::get_if<Ramp>(&reference)) {

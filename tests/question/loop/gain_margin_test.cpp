@@ -203,6 +203,23 @@ TEST(OracleLag, BehindARampIsTheVelocityError) {
   expect_lag(drive, 0.7 * 0.6 / 3.0);
 }
 
+/// Of T = K/(J s² + F s + K) with r + l ṙ for the reference, and the torque M r̈: a lead of F/K and
+/// the whole inertia follow any reference exactly.
+TEST(OracleLag, FallsWithFeedForward) {
+  ReducedDrive drive = rigid_drive(0.05);
+  drive.reference = Ramp{0.3, 0.7};
+  drive.feedforward.lead = 0.01;
+  expect_lag(drive, 0.7 * (0.05 / 2.0 - 0.01));
+  drive.feedforward.lead = 0.05;
+  expect_lag(drive, 0.7 * (0.05 - 0.05 / 2.0));  // ahead of it
+  drive.reference = Sine{.mean = 0.1, .amplitude = 0.2, .frequency = 3.0};
+  drive.feedforward = {.lead = 0.05 / 2.0, .inertia = inertia};
+  expect_lag(drive, 0.0);
+  drive.feedforward.inertia = 0.0;
+  const std::complex<double> s{0.0, 3.0};
+  expect_lag(drive, 0.2 * std::abs(inertia * s * s / (inertia * s * s + 0.05 * s + 2.0)));
+}
+
 /// A held torque is constant in the end, so that its delay does not count.
 TEST(OracleLag, OfASampledLoopBehindARamp) {
   for (const double delay : {0.0, 3e-3, 1e-2}) {
