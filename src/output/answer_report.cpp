@@ -81,7 +81,7 @@ std::string cycle_row_text(const Cycle& cycle, const AnswerUnits& units) {
 /// The cycle that is seen in practice.
 std::string motion_table(const AnswerReport& report) {
   const Cycle* cycle = report.answer.largest_stable();
-  if (cycle == nullptr) return "";
+  if (cycle == nullptr || is_of_motor_alone(*cycle)) return "";  // the headline has it
   const AnswerUnits units = units_of(report);
   const double backlash = backlash_of(report);
   TextRows rows = {
@@ -107,7 +107,7 @@ std::string motion_table(const AnswerReport& report) {
 /// What feeds the cycle, and what each loss takes.
 std::string balance_text(const AnswerReport& report) {
   const Cycle* cycle = report.answer.largest_stable();
-  if (cycle == nullptr || !cycle->energy) return "";
+  if (cycle == nullptr || !cycle->energy || is_of_motor_alone(*cycle)) return "";
   const AnswerUnits units = units_of(report);
   const EnergyBalance& energy = *cycle->energy;
   TextRows rows;
