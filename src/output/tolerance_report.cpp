@@ -78,7 +78,7 @@ TextRows quantile_rows(const ToleranceReport& report) {
   if (has_frequency(report)) rows.front().emplace_back("frequency");
   for (std::size_t i = 0; i < study.amplitude.size(); ++i) {
     TextRow row = {significant(100.0 * study.amplitude[i].share, usual_digits) + " %",
-                   amplitude_text(study.error[i].value, report),
+                   angle_text(study.error[i].value->value, report),
                    amplitude_text(study.amplitude[i].value, report),
                    amplitude_text(study.amplitude_of_hunting[i].value, report)};
     if (has_frequency(report)) row.push_back(frequency_text(study.frequency[i].value));

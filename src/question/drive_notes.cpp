@@ -78,6 +78,14 @@ std::vector<Note> notes_on(const SoundDrive& sound) {
          "The encoder is assumed on the load; sensor.position = \"motor\" puts it on the "
          "motor."});
   }
+  if (!drive.controller.firmware && drive.controller.shaft == GainShaft::mixed &&
+      std::holds_alternative<TorqueControl>(motor.kind) &&
+      drive.sensor.position == SensorPlace::motor && drive.gearbox.ratio != 1.0) {
+    notes.push_back({"mixed-gains",
+                     "The gains count as torque of the motor per angle of the load. Gains per "
+                     "angle of the motor, as drives with an encoder there print them, need "
+                     "controller.shaft = \"motor\"."});
+  }
   if (drive.controller.firmware) {
     notes.push_back({"firmware", text_on_firmware(drive)});
     const std::string turns = text_on_counted_turns(drive);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <set>
 #include <string_view>
 
@@ -60,6 +61,32 @@ TEST(Quantities, AmplitudesAreZeroOfWhatComesToRestAndUnknownOfWhatIsUndecided) 
   answer.rest = Rest{};
   answer.rest->error = {-0.3, 0.1};
   EXPECT_EQ(answer.value(Quantity::static_error), 0.3);
+}
+
+/// Of the starts that are displaced least; running away is infinite, undecided is unknown.
+TEST(Quantities, ErrorsAreThoseOfWhereStartsLead) {
+  Answer answer;
+  answer.verdict = Verdict::hunts_if_disturbed;
+  answer.rest = Rest{.error = {-0.3, 0.1}};
+  answer.cycles = {cycle(2.0, Stability::stable)};
+  answer.cycles[0].error = 2.5;
+  answer.search = SearchRecord{.reference = 1.0,
+                               .starts = {{.load_position = 1.1, .end = "rest"},
+                                          {.load_position = 0.9, .end = "rest"},
+                                          {.load_position = 4.0, .end = "cycle", .which = 0},
+                                          {.load_position = 1.0, .end = "diverges"}}};
+  EXPECT_EQ(answer.value(Quantity::error), 0.3);
+  EXPECT_EQ(answer.value(Quantity::error_if_disturbed), std::numeric_limits<double>::infinity());
+  answer.search->starts.pop_back();
+  EXPECT_EQ(answer.value(Quantity::error_if_disturbed), 2.5);
+  answer.search->starts[1] = {.load_position = 0.9, .end = "cycle", .which = 0};
+  EXPECT_EQ(answer.value(Quantity::error), 2.5);
+  answer.search->starts[1] = {.load_position = 0.9, .end = "undecided"};
+  EXPECT_EQ(answer.value(Quantity::error), std::nullopt);
+  EXPECT_EQ(answer.value(Quantity::error_if_disturbed), std::nullopt);
+  answer.search.reset();  // in closed form
+  EXPECT_EQ(answer.value(Quantity::error), 0.3);
+  EXPECT_EQ(answer.value(Quantity::error_if_disturbed), 2.5);
 }
 
 }  // namespace

@@ -178,10 +178,6 @@ ToleranceStudy study_of(const SamplePlan& sampling, const StudyQuestions& questi
   study.amplitude = quantiles_of(sizes, questions.shares);
   study.amplitude_of_hunting = quantiles_of(sizes.from(above_zero), questions.shares);
   study.histogram = histogram_of(sizes, questions.bins);
-  constexpr double no_cycle = -1.0;  // NaN has no place in an order
-  const SortedReplicates frequencies = sorted_by([](const SampleResult& result) {
-    return std::isnan(result.frequency) ? no_cycle : result.frequency;
-  });
   study.error = quantiles_of(sorted_by([](const SampleResult& result) {
                                return std::isnan(result.error) ? infinity : result.error;
                              }),
@@ -189,6 +185,10 @@ ToleranceStudy study_of(const SamplePlan& sampling, const StudyQuestions& questi
   for (const SampleResult& result : results) {
     if (result.meets && hides_error(questions.target, result.error)) ++study.hidden_errors;
   }
+  constexpr double no_cycle = -1.0;  // NaN has no place in an order
+  const SortedReplicates frequencies = sorted_by([](const SampleResult& result) {
+    return std::isnan(result.frequency) ? no_cycle : result.frequency;
+  });
   study.frequency = quantiles_of(frequencies.from(0.0), questions.shares);
   return study;
 }

@@ -333,6 +333,7 @@ TEST(OracleToleranceStudy, QuantilesAndStepsAreThoseOfAllSamplesSorted) {
   Replicates amplitude(sampling.replicates);
   Replicates of_hunting(sampling.replicates);
   Replicates frequency(sampling.replicates);
+  Replicates error(sampling.replicates);
   std::vector<double> positive;
   double sum = 0.0;
   double hunting = 0.0;
@@ -349,6 +350,8 @@ TEST(OracleToleranceStudy, QuantilesAndStepsAreThoseOfAllSamplesSorted) {
       if (one.amplitude > 0.0) of_hunting[replicate].push_back(one.amplitude);
       if (one.amplitude > 0.0) positive.push_back(one.amplitude);
       if (!std::isnan(one.frequency)) frequency[replicate].push_back(one.frequency);
+      error[replicate].push_back(one.error);
+      EXPECT_EQ(one.error, one.amplitude);  // symmetric about the reference, or at rest on it
       sum += one.amplitude;
       hunting += one.hunts() ? 1.0 : 0.0;
       meeting += one.meets ? 1.0 : 0.0;
@@ -357,6 +360,7 @@ TEST(OracleToleranceStudy, QuantilesAndStepsAreThoseOfAllSamplesSorted) {
   expect_quantiles(study.amplitude, amplitude);
   expect_quantiles(study.amplitude_of_hunting, of_hunting);
   expect_quantiles(study.frequency, frequency);
+  expect_quantiles(study.error, error);
   const auto samples = static_cast<double>(sampling.samples());
   EXPECT_EQ(study.hunting.value, hunting / samples);
   EXPECT_EQ(study.yield.value, meeting / samples);
