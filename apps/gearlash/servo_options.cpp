@@ -1,10 +1,12 @@
 #include "servo_options.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
 #include "base/lists.hpp"
+#include "base/special_numbers.hpp"
 #include "gearlash/parameter.hpp"
 #include "input/section_reader.hpp"
 #include "input/target_text.hpp"
@@ -106,7 +108,12 @@ std::vector<Setting> settings_of(const ServoOptions& options, Faults& faults) {
     faults.collect([&] { return settings.push_back(read_setting(text)), 0; }, 0);
   }
   for (std::size_t i = 0; i < options.asked.size(); ++i) {
-    if (options.asked[i]) settings.push_back({specification_options[i].path, *options.asked[i]});
+    if (!options.asked[i]) continue;
+    const auto& [name, path, help] = specification_options[i];
+    const std::string& text = *options.asked[i];
+    const auto read = [&] { return to_si(name, text, dimensions::angle); };
+    const double angle = faults.collect(read, not_a_number);
+    if (!std::isnan(angle)) settings.push_back({path, text});
   }
   return settings;
 }

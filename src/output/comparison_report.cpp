@@ -115,12 +115,13 @@ std::string rescaled_text(const ComparisonReport& report) {
 
 std::string step_text(const ComparisonReport& report) {
   const auto is_of_step = [](Quantity one) { return info_of(one).scope == QuantityScope::step; };
-  const std::optional<double> step = step_of(report);
-  if (!step || !any_of(report.quantities, is_of_step)) return "";
+  const ComparedDrive* stepped = first_of(
+      report.drives, [](const ComparedDrive& one) { return one.answer && one.answer->step; });
+  if (stepped == nullptr || !any_of(report.quantities, is_of_step)) return "";
   const std::string names = names_where(report, [](const ComparedDrive& one) {
     return one.answer->step && !one.answer->step->is_whole;
   });
-  return "The step of the reference is " + angle_text(*step, report.angles.front(), usual_digits) +
+  return "All make " + step_text(*stepped->answer->step, report.angles.front()) +
          (names.empty() ? "." : "; it could not be followed to its end: " + names + ".");
 }
 
@@ -162,7 +163,7 @@ std::string in_blocks(const TextRows& rows) {
 
 std::vector<Quantity> usual_quantities_compared() {
   return {Quantity::amplitude,    Quantity::motor_amplitude, Quantity::frequency,
-          Quantity::error, Quantity::ceiling,         Quantity::bandwidth,
+          Quantity::error,        Quantity::ceiling,         Quantity::bandwidth,
           Quantity::phase_margin, Quantity::rise_time,       Quantity::overshoot,
           Quantity::settling_time};
 }

@@ -96,9 +96,9 @@ std::string table_of_results(const DesignReport& report) {
   const std::string costs =
       report.design.present.answer.normal_form
           ? "ω_n, ζ and K show its cost"
-          : "its result at the value nearest to the present one,\na step of the reference of " +
-                angle_text(report.design.present.answer.step.value_or(StepResponse{}).step,
-                           report.angle, few_digits) +
+          : "its result at the value nearest to the present one,\n" +
+                step_text(report.design.present.answer.step.value_or(StepResponse{}),
+                          report.angle) +
                 ", and the linear loop without the gap";
   return "One change by itself, other parameters fixed; " + costs + "\n" + table_text(rows) + "\n";
 }

@@ -170,12 +170,15 @@ std::string small_clause(const AnswerReport& report) {
     case Verdict::runs_away_if_disturbed:
       break;
     case Verdict::cannot_hunt:
-      return "cannot hunt: " + rest_clause(report);
+      return "cannot hunt: " + (backlash_of(report) == 0.0 ? "no backlash" : rest_clause(report));
     case Verdict::comes_to_rest:
       return rest_clause(report);
     case Verdict::runs_away:
-    case Verdict::undecided:
       return name_of(answer.verdict);
+    case Verdict::undecided:
+      return "undecided" + (answer.growth_at_rest
+                                ? ": growth at rest " + significant(*answer.growth_at_rest, 17)
+                                : "");
   }
   // Some starts rest, others swing or run away: those of the smallest displacements.
   const auto ends = [&](const char* end) {
@@ -192,7 +195,7 @@ std::string small_clause(const AnswerReport& report) {
 std::string larger_clause(const AnswerReport& report, const std::string& small) {
   const Answer& answer = report.answer;
   const std::vector<Swing> swings = swings_of(answer);
-  if (swings.empty()) return "";
+  if (swings.empty() || answer.verdict == Verdict::undecided) return "";
   const bool is_named = small.find("hunts") == 0 || small.find("forced") == 0;
   if (!is_named) {
     const std::string steps = steps_text(report, "hunting");
@@ -202,7 +205,12 @@ std::string larger_clause(const AnswerReport& report, const std::string& small) 
   const Swing& largest = *std::max_element(swings.begin(), swings.end(), by(&Swing::extent));
   constexpr double much = 1.5;  // irregular motion varies
   const double named = first_swing(answer)->extent();
-  if (largest.starts == 0 || largest.extent() <= much * named) return "";
+  if (largest.starts == 0 || largest.extent() <= much * named) {
+    const std::size_t rests = answer.search ? answer.search->count("rest") : 0;
+    return rests == 0 ? ""
+                      : fmt::format("comes to rest from {} of {}", rests,
+                                    starts_text(answer.search->starts.size()));
+  }
   return fmt::format("{} of {} hunt by {}", largest.starts,
                      starts_text(answer.search->starts.size()),
                      headline_units(report).swing(largest.extent()));

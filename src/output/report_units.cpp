@@ -62,4 +62,9 @@ std::string swing_bound_text(double amplitude, const AngleUnit& unit, int digits
       "±{} {}", significant(rounded_up(unit.from_radians(amplitude), digits), digits), unit.name);
 }
 
+std::string step_text(const StepResponse& step, const AngleUnit& unit) {
+  return "a step of " + angle_text(step.step, unit, usual_digits) + ", settled within " +
+         swing_text(step.band, unit, usual_digits);
+}
+
 }  // namespace gearlash

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "gearlash/answer.hpp"
 #include "input/units.hpp"
 
 namespace gearlash {
@@ -42,5 +43,8 @@ std::string frequency_text(double period, bool is_normalized, int digits);
 std::string swing_text(double amplitude, const AngleUnit& unit, int digits);
 /// An upper bound of an amplitude in the author's unit, rounded up: "±12.4 arcmin".
 std::string swing_bound_text(double amplitude, const AngleUnit& unit, int digits);
+
+/// What a table of step responses is of: "a step of 1 deg, settled within ±0.05 deg".
+std::string step_text(const StepResponse& step, const AngleUnit& unit);
 
 }  // namespace gearlash

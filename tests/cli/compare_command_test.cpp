@@ -153,7 +153,7 @@ TEST(CompareCommand, ShowsTheQuantitiesThatAreAskedFor) {
   const Words asked = {servo, "--quantities", "multiplier,static-error,multiplier,verdict"};
   const std::string text = run_tool(joined({"compare"}, asked)).out;
   EXPECT_THAT(text, HasSubstr("\n  multiplier "));
-  EXPECT_THAT(text, HasSubstr("\n  error (rad) "));
+  EXPECT_THAT(text, HasSubstr("\n  static error (rad) "));
   EXPECT_THAT(text, Not(HasSubstr("bandwidth")));
   const json printed = compared(asked);
   EXPECT_EQ(printed["quantities"], json({"multiplier", "static_error", "verdict"}));
@@ -310,15 +310,15 @@ TEST(EdgeCompareCommand, ReportsAllFaultsAtOnce) {
     EXPECT_EQ(run.out, "");
     return test::lines_of(run.err);
   };
-  EXPECT_THAT(faults_of({servo, "--x", "gearbox.backlash=1:0:3", "--step", "0", "--until", "-1",
-                         "--format", "xml", "--plot", "a.svg", "--quantities", "amplitud,period",
-                         "--time-limit", "0", "--set", "gearbox.backlsh=1"}),
-              testing::UnorderedElementsAre(
-                  HasSubstr("--step = 0: must be an angle other than 0"),
-                  HasSubstr("--until = -1: must be positive"), HasSubstr("--format = xml"),
-                  HasSubstr("--plot = a.svg"), HasSubstr("--quantities = amplitud: must be"),
-                  HasSubstr("--time-limit = 0"), HasSubstr("did you mean gearbox.backlash?"),
-                  HasSubstr("--x = 1 to 0: must rise")));
+  EXPECT_THAT(
+      faults_of({servo, "--x", "gearbox.backlash=1:0:3", "--step", "0", "--until", "-1", "--format",
+                 "xml", "--plot", "a.svg", "--quantities", "amplitud,period", "--time-limit", "0",
+                 "--set", "gearbox.backlsh=1"}),
+      testing::UnorderedElementsAre(
+          HasSubstr("--step = 0: must be an angle"), HasSubstr("--until = -1: must be positive"),
+          HasSubstr("--format = xml"), HasSubstr("--plot = a.svg"),
+          HasSubstr("--quantities = amplitud: must be"), HasSubstr("--time-limit = 0"),
+          HasSubstr("did you mean gearbox.backlash?"), HasSubstr("--x = 1 to 0: must rise")));
   EXPECT_THAT(faults_of({servo, "--sensor", "load,load"}), ElementsAre(HasSubstr("--sensor")));
   EXPECT_THAT(faults_of({servo, "--sensor", "moter"}), ElementsAre(HasSubstr("--sensor")));
   EXPECT_THAT(faults_of({servo, "--sensor", "load", "--x", "sensor.position=load,motor"}),

@@ -53,8 +53,8 @@ TEST(ComparisonReport, TextHasUnitsWhatIsUnknownAndWhatToKnow) {
   overshoot (%)                   25        –           –
 
 Not stable even without the gap: second. What happens there is not due to backlash alone,
-and a step response is left out. The step of the reference is 1 deg; it could not be
-followed to its end: first.
+and a step response is left out. All make a step of 1 deg, settled within ±0 deg; it could
+not be followed to its end: first.
 )");
 }
 

@@ -82,7 +82,7 @@ TEST(ReportedMotion, OfTheDrivesPageIsDecidedInLittleTime) {
   EXPECT_NEAR(*motion.mean_amplitude / arcmin, 18.999, 1e-3);
   EXPECT_NEAR(*motion.mean_period, 4.1850, 5e-4);
   const std::string text = to_text(drive, answer);
-  EXPECT_THAT(text, StartsWith("hunts if disturbed: ±0.00556 rad (0.319°) at 0.239 Hz"));
+  EXPECT_THAT(text, StartsWith("hunts: ±0.00556 rad at 0.239 Hz; comes to rest from "));
   EXPECT_THAT(text, HasSubstr("runs away after steps from"));
   EXPECT_THAT(text, Not(HasSubstr("not seen to repeat")));
   // Of simulated time: a start that repeats, or joins a known motion, need not be watched on.
@@ -221,7 +221,7 @@ TEST(ReportedMotion, RepeatsIfItsSwingsDoOrWithinAnEncodersStep) {
   Answer answer;
   answer.search = SearchRecord{.starts = {{.end = "irregular", .which = 0}}};
   answer.irregular = {motion_with(2e-11, 0.2, 50.0)};
-  const std::string text = to_text(Drive{}, answer);
+  const std::string text = answer_text(report_of(Drive{}, answer), Detail::all);
   EXPECT_THAT(text, HasSubstr("Motion whose swings repeat"));
   EXPECT_THAT(text, HasSubstr("1 to motion whose swings repeat"));
   EXPECT_THAT(text, Not(HasSubstr("chaotic")));
@@ -233,7 +233,8 @@ TEST(ReportedMotion, SaysInItsFirstLineWhatLargeStepsDo) {
   const Drive drive = drive_of("current-loop-2500-hz.toml");
   const Answer answer = analyse(drive);
   const std::string line = headline(drive, answer);
-  EXPECT_THAT(line, StartsWith("hunts if disturbed: "));
+  EXPECT_THAT(line, StartsWith("comes to rest, up to "));
+  EXPECT_THAT(line, HasSubstr("; hunts, "));
   EXPECT_THAT(line, HasSubstr(" at 18.7 Hz"));
   EXPECT_THAT(line, HasSubstr("; runs away after steps from "));
   // ±0.195° at an encoder step of 0.0055°.
@@ -289,7 +290,7 @@ TEST(ReportedRest, HasNoDigitsOfRounding) {
   ASSERT_TRUE(answer.rest);
   EXPECT_EQ(answer.rest->load.low, 0.0);
   EXPECT_EQ(answer.rest->load.high, 0.0);
-  EXPECT_THAT(to_text(drive, answer), HasSubstr("load, from the reference   0 rad"));
+  EXPECT_THAT(to_text(drive, answer), HasSubstr("error, reference − load  0 rad"));
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ TEST(EdgeAxis, EachFaultIsOneLine) {
   };
   EXPECT_EQ(fault(0.1, 0.5, 0, Spacing::linear), "--x = 0 values: must be from 1 to 1000000");
   EXPECT_EQ(fault(0.1, 0.5, 1, Spacing::linear),
-            "--x = 1 values from 0.1 to 0.5: must be two or more between different ends, or one "
+            "--x = 1 value from 0.1 to 0.5: must be two or more between different ends, or one "
             "where they are the same");
   EXPECT_EQ(fault(0.1, 0.5, 1'000'000'000'000, Spacing::linear),
             "--x = 1000000000000 values: must be from 1 to 1000000");
