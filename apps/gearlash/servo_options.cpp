@@ -113,7 +113,13 @@ std::vector<Setting> settings_of(const ServoOptions& options, Faults& faults) {
     const std::string& text = *options.asked[i];
     const auto read = [&] { return to_si(name, text, dimensions::angle); };
     const double angle = faults.collect(read, not_a_number);
-    if (!std::isnan(angle)) settings.push_back({path, text});
+    const bool may_be_negative = std::string_view(path) == "specification.step";
+    if (angle == 0.0 || (angle < 0.0 && !may_be_negative)) {
+      faults.add(name, shown(text),
+                 may_be_negative ? "must be an angle other than 0" : "must be an angle above 0");
+    } else if (!std::isnan(angle)) {
+      settings.push_back({path, text});
+    }
   }
   return settings;
 }

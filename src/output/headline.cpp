@@ -206,10 +206,9 @@ std::string larger_clause(const AnswerReport& report, const std::string& small) 
   constexpr double much = 1.5;  // irregular motion varies
   const double named = first_swing(answer)->extent();
   if (largest.starts == 0 || largest.extent() <= much * named) {
-    const std::size_t rests = answer.search ? answer.search->count("rest") : 0;
-    return rests == 0 ? ""
-                      : fmt::format("comes to rest from {} of {}", rests,
-                                    starts_text(answer.search->starts.size()));
+    if (answer.verdict != Verdict::hunts_if_disturbed || !answer.search) return "";
+    return fmt::format("comes to rest from {} of {}", answer.search->count("rest"),
+                       starts_text(answer.search->starts.size()));
   }
   return fmt::format("{} of {} hunt by {}", largest.starts,
                      starts_text(answer.search->starts.size()),

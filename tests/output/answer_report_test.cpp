@@ -161,7 +161,8 @@ TEST(Headline, GoesFromSmallDisplacementsToLargeOnes) {
             "comes to rest, up to 0.01 rad off; hunts, ±0.02 rad at 2 Hz, after steps from 0.5 rad "
             "on (found from 2 starts)");
   std::swap(answer.search->starts[0].load_position, answer.search->starts[1].load_position);
-  EXPECT_EQ(headline(report), "hunts: ±0.02 rad at 2 Hz (found from 2 starts)");
+  EXPECT_EQ(headline(report),
+            "hunts: ±0.02 rad at 2 Hz; comes to rest from 1 of 2 starts (found from 2 starts)");
 }
 
 /// The word is for a cause that a run without the encoder has shown.
