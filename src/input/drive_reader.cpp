@@ -133,6 +133,11 @@ class DriveReader {
   }
   bool is_robots_form() const { return has("joint") || has("actuator"); }
 
+  /// Whether --set gives the whole section.
+  bool is_set(std::string_view section) const {
+    return document_.root().get(section)->source().begin.line == 0;
+  }
+
   /// Drive::is_rounded.
   bool has_rounded_numbers() {
     if (drive().servo) return document_.has_long_decimals("servo");
@@ -148,8 +153,11 @@ class DriveReader {
     return is_varied("servo.damping") && is_varied("servo.inertia_ratio") &&
            is_varied("servo.friction_ratio");
   }
+  /// A [motor] of --set makes no other drive of a file's [servo].
   bool is_normal_form() const {
-    return !has("motor") && (has("servo") || (leaves_nothing_to_give() && !has_plant()));
+    const bool is_file_s = has("servo") && !is_set("servo");
+    const bool has_motor = has("motor") && !(is_file_s && is_set("motor"));
+    return !has_motor && (has("servo") || (leaves_nothing_to_give() && !has_plant()));
   }
 
   /// A file with neither motor nor normal form has one fault, not one for each section.
@@ -170,10 +178,11 @@ class DriveReader {
       if (name == variation_.section) continue;
       if (!contains(names, name)) {
         const std::string guess = guess_of_key("", name, names);
-        findings_.refuse(key.source().begin, shown(name), document_.written(value),
-                         value.is_table()
-                             ? "is not a section: must be one of " + listed(names) + guess
-                             : "must stand in a section, such as [motor]" + guess);
+        const std::string reason =
+            name == "sweep"    ? "is of a file for gearlash sweep, not of a drive"
+            : value.is_table() ? "is not a section: must be one of " + listed(names) + guess
+                               : "must stand in a section, such as [motor]" + guess;
+        findings_.refuse(key.source().begin, shown(name), document_.written(value), reason);
       }
     }
     for (const char* robots : {"joint", "actuator"}) {
@@ -197,7 +206,7 @@ class DriveReader {
 
   void refuse_section(const char* name, const std::string& permitted) {
     if (const toml::node* node = document_.root().get(name)) {
-      findings_.refuse(name, *node, permitted);
+      findings_.refuse(node->source().begin, name, "[" + std::string(name) + "]", permitted);
     }
   }
 

@@ -189,7 +189,8 @@ TEST(OutputFiles, NoneMayTakeThePlaceOfAnother) {
                                 "--plot", "phase=" + picture});
   EXPECT_EQ(run.status, 2);
   EXPECT_THAT(run.err, HasSubstr("--output = " + sheet + ": must not be the file of DRIVE.toml"));
-  EXPECT_THAT(run.err, HasSubstr("--plot = " + picture + ": must not be the file of --plot"));
+  EXPECT_THAT(run.err,
+              HasSubstr("--plot = " + picture + ": must not be the file of another --plot"));
   EXPECT_EQ(file_text(sheet), file_text(GEARLASH_SOURCE_DIRECTORY "/examples/elinco-fd162.toml"));
   EXPECT_EQ(scratch.file_count(), 1U);
 }
@@ -278,7 +279,8 @@ TEST(OutputFiles, TwoSpellingsOfANewFileAreOneFile) {
       run_shell("sheet=$PWD/examples/elinco-fd162.toml; cd " + quoted((scratch / "").string()) +
                 "; \"$GEARLASH\" simulate \"$sheet\" --plot time=new.svg --plot phase=./new.svg");
   EXPECT_EQ(run.status, 2);
-  EXPECT_EQ(run.err, "gearlash: --plot = ./new.svg: must not be the file of --plot, new.svg\n");
+  EXPECT_EQ(run.err,
+            "gearlash: --plot = ./new.svg: must not be the file of another --plot, new.svg\n");
   EXPECT_EQ(scratch.file_count(), 0U);
 }
 
