@@ -58,12 +58,6 @@ std::vector<Key> keys_of(const Parameter& parameter, std::string_view section) {
   return keys;
 }
 
-void know_keys_of_all_kinds(SectionReader& section, const std::string& name) {
-  for (const Parameter& parameter : all_parameters_of_drives()) {
-    for (const Key& key : keys_of(parameter, name)) section.know(key.name);
-  }
-}
-
 void set_number(const Slot& slot, double number) {
   if (auto* const* place = std::get_if<double*>(&slot)) **place = number;
   if (auto* const* place = std::get_if<std::optional<double>*>(&slot)) **place = number;
@@ -272,7 +266,8 @@ class DriveReader {
       }
     }
     if (name == "motor") motor_is_known_ = kind_is_known;
-    if (is_kind_set(name) || !kind_is_known) know_keys_of_all_kinds(section, name);
+    if (!kind_is_known) know_keys_of_all_kinds(section, name, true);
+    if (is_kind_set(name)) know_keys_of_all_kinds(section, name, false);
     if (!kind_is_known) check_keys_of_any_kind(section, name);
     refuse_rivals(section, name);
     section.refuse_other_keys([&](const std::string& key, const std::vector<std::string>& known) {
@@ -284,10 +279,21 @@ class DriveReader {
     });
   }
 
+  /// Whether --set gives the value.
+  bool is_value_set(const std::string& path) const {
+    const toml::node* value = document_.value_at(path);
+    return value != nullptr && value->source().begin.line == 0;
+  }
   /// Whether --set gives the kind. The file's keys may then belong to another kind.
-  bool is_kind_set(const std::string& name) const {
-    const toml::node* kind = document_.value_at(name + ".kind");
-    return kind != nullptr && kind->source().begin.line == 0;
+  bool is_kind_set(const std::string& name) const { return is_value_set(name + ".kind"); }
+
+  /// The file's, and those of --set if they are to be known.
+  void know_keys_of_all_kinds(SectionReader& section, const std::string& name, bool even_if_set) {
+    for (const Parameter& parameter : all_parameters_of_drives()) {
+      for (const Key& key : keys_of(parameter, name)) {
+        if (even_if_set || !is_value_set(name + "." + key.name)) section.know(key.name);
+      }
+    }
   }
 
   /// The first of the keys that the section has; any further ones are refused.

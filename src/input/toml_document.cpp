@@ -185,8 +185,13 @@ TomlDocument::TomlDocument(std::string_view text, std::string_view source_name, 
     root_ = parsed(text);
   } catch (const toml::parse_error& error) {
     const Place place = error.source().begin;
-    refuse_at(where(place), "line", shown(line(place.line)),
-              "must be TOML: " + shown(error.description(), 200));
+    const std::string_view wrong = line(place.line);
+    const bool has_no_quotes =
+        wrong.find('=') != wrong.npos && wrong.find_first_of("\"'") == wrong.npos;
+    refuse_at(
+        where(place), "line", shown(wrong),
+        "must be TOML: " + shown(error.description(), 200) +
+            (has_no_quotes ? "; a word, or a number with a unit, needs quotes: \"3 kg m2\"" : ""));
   }
   require_doubles(root_);
 }
