@@ -337,9 +337,11 @@ WrittenDrive read_drive_as_typed(const ServoOptions& options, std::vector<Settin
 
 Target collect_target(const std::string& text, const Drive* drive, Faults& faults) {
   const bool has_time = drive == nullptr || !is_normalized(*drive);
+  const bool has_unit = drive != nullptr && !drive->servo;
   return faults.collect(
       [&] {
-        return read_target("--target", text, has_time ? TimeScale::known : TimeScale::unknown);
+        return read_target("--target", text, has_time ? TimeScale::known : TimeScale::unknown,
+                           has_unit ? BareNumbers::refused : BareNumbers::in_si);
       },
       Target{});
 }
@@ -386,6 +388,21 @@ double read_share(const char* field, const std::string& text, Faults& faults) {
 
 namespace {
 
+/// Parameters that --set gives twice, under one name or two.
+void refuse_set_twice(const std::vector<std::string>& settings, Faults& faults) {
+  const auto path_in = [](const std::string& setting) {
+    const std::string path(trimmed(setting.substr(0, setting.find('='))));
+    const Parameter* parameter = find_parameter(path);
+    return parameter == nullptr || path.ends_with(']') ? path : std::string(parameter->path);
+  };
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (path_in(settings[j]) != path_in(settings[i])) continue;
+      faults.add("--set", shown(settings[i]), "must be left out, or --set " + shown(settings[j]));
+    }
+  }
+}
+
 /// Options whose parameter --set gives too.
 void refuse_given_twice(const ServoOptions& options, Faults& faults) {
   const auto check = [&](const std::string& option, const std::optional<std::string>& typed,
@@ -404,6 +421,7 @@ void refuse_given_twice(const ServoOptions& options, Faults& faults) {
     check(specification_options[i].name, options.asked[i], {specification_options[i].path});
   }
   check("--sensor", options.sensor, {"sensor.position"});
+  refuse_set_twice(options.settings, faults);
 }
 
 std::optional<WrittenDrive> read_drive_or_faults(const ServoOptions& options, Faults& faults) {

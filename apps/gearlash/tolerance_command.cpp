@@ -59,9 +59,10 @@ void read_sampling(const ToleranceOptions& options, ToleranceRequest& task, Faul
   }
   task.sampling.seed = collect_whole("--seed", options.seed, 0, std::uint64_t{1} << 53U, faults);
   if (!options.error.empty()) {
-    task.error = read_share("--error", options.error, faults);
-    if (task.error < 1e-6 || task.error > 0.5) {
-      faults.add("--error", options.error, "must be from 0.0001 % to 50 %");
+    task.error =
+        faults.collect([&] { return gearlash::read_share("--error", options.error); }, 0.5);
+    if (!(task.error >= 1e-6 && task.error <= 0.5)) {
+      faults.add("--error", shown(options.error), "must be from 0.0001 % to 50 %");
     }
   }
 }

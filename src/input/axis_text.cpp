@@ -110,6 +110,10 @@ Axis read_axis_to_tune(std::string_view field, std::string_view text, const Driv
   // Between the ends are values that remain if an end is not permitted.
   const std::string with_count = std::string(text) + (has_two_ends ? ":101" : "");
   Axis axis = read_axis_or_name(field, with_count, drive, left_out);
+  if (!parameter_of(axis, drive)->choices.empty()) {
+    refuse(field, axis.path,
+           "must be a number of this drive, not a choice of words; gearlash design compares these");
+  }
   if (has_two_ends) axis.values = {axis.values.front(), axis.values.back()};
   if (text.find('=') == std::string_view::npos) return usual_axis_to_tune(drive, axis.path);
   axis.logarithmic = axis.values.front() > 0.0;

@@ -77,7 +77,10 @@ std::string cleared_place(TomlDocument& document, const std::string& path) {
   for (const Parameter* parameter : parameters_named(path)) {
     const OtherForm* named = form_named(*parameter, path);
     const bool is_direct = named == nullptr || named->relation == Relation::same;
-    if (document.remove(parameter->path) && is_direct) place = parameter->path;
+    const bool is_of_other_section = parameter->section() != section_of(path);
+    if (document.remove(parameter->path) && is_direct && is_of_other_section) {
+      place = parameter->path;
+    }
     for (const OtherForm& form : parameter->other_forms) {
       const bool has_same_meaning = form.relation == Relation::same && is_direct;
       const bool is_of_loop = has_loop && section_of(form.path) == "loop";
@@ -157,7 +160,7 @@ WrittenDrive parse_drive_by_form(std::string_view toml, std::string_view source_
 
 Setting read_setting(const std::string& text) {
   const std::size_t sign = text.find('=');
-  if (sign == std::string::npos) {
+  if (sign == std::string::npos || sign == 0) {
     refuse("--set", text, "must be PATH=VALUE, such as gearbox.ratio=50");
   }
   Setting setting{text.substr(0, sign), text.substr(sign + 1)};

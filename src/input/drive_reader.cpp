@@ -58,12 +58,6 @@ std::vector<Key> keys_of(const Parameter& parameter, std::string_view section) {
   return keys;
 }
 
-void know_keys_of_all_kinds(SectionReader& section, const std::string& name) {
-  for (const Parameter& parameter : all_parameters_of_drives()) {
-    for (const Key& key : keys_of(parameter, name)) section.know(key.name);
-  }
-}
-
 void set_number(const Slot& slot, double number) {
   if (auto* const* place = std::get_if<double*>(&slot)) **place = number;
   if (auto* const* place = std::get_if<std::optional<double>*>(&slot)) **place = number;
@@ -133,6 +127,11 @@ class DriveReader {
   }
   bool is_robots_form() const { return has("joint") || has("actuator"); }
 
+  /// Whether --set gives the whole section.
+  bool is_set(std::string_view section) const {
+    return document_.root().get(section)->source().begin.line == 0;
+  }
+
   /// Drive::is_rounded.
   bool has_rounded_numbers() {
     if (drive().servo) return document_.has_long_decimals("servo");
@@ -148,8 +147,11 @@ class DriveReader {
     return is_varied("servo.damping") && is_varied("servo.inertia_ratio") &&
            is_varied("servo.friction_ratio");
   }
+  /// A [motor] of --set makes no other drive of a file's [servo].
   bool is_normal_form() const {
-    return !has("motor") && (has("servo") || (leaves_nothing_to_give() && !has_plant()));
+    const bool is_file_s = has("servo") && !is_set("servo");
+    const bool has_motor = has("motor") && !(is_file_s && is_set("motor"));
+    return !has_motor && (has("servo") || (leaves_nothing_to_give() && !has_plant()));
   }
 
   /// A file with neither motor nor normal form has one fault, not one for each section.
@@ -170,10 +172,11 @@ class DriveReader {
       if (name == variation_.section) continue;
       if (!contains(names, name)) {
         const std::string guess = guess_of_key("", name, names);
-        findings_.refuse(key.source().begin, shown(name), document_.written(value),
-                         value.is_table()
-                             ? "is not a section: must be one of " + listed(names) + guess
-                             : "must stand in a section, such as [motor]" + guess);
+        const std::string reason =
+            name == "sweep"    ? "is of a file for gearlash sweep, not of a drive"
+            : value.is_table() ? "is not a section: must be one of " + listed(names) + guess
+                               : "must stand in a section, such as [motor]" + guess;
+        findings_.refuse(key.source().begin, shown(name), document_.written(value), reason);
       }
     }
     for (const char* robots : {"joint", "actuator"}) {
@@ -197,7 +200,7 @@ class DriveReader {
 
   void refuse_section(const char* name, const std::string& permitted) {
     if (const toml::node* node = document_.root().get(name)) {
-      findings_.refuse(name, *node, permitted);
+      findings_.refuse(node->source().begin, name, "[" + std::string(name) + "]", permitted);
     }
   }
 
@@ -263,7 +266,8 @@ class DriveReader {
       }
     }
     if (name == "motor") motor_is_known_ = kind_is_known;
-    if (is_kind_set(name) || !kind_is_known) know_keys_of_all_kinds(section, name);
+    if (!kind_is_known) know_keys_of_all_kinds(section, name, true);
+    if (is_kind_set(name)) know_keys_of_all_kinds(section, name, false);
     if (!kind_is_known) check_keys_of_any_kind(section, name);
     refuse_rivals(section, name);
     section.refuse_other_keys([&](const std::string& key, const std::vector<std::string>& known) {
@@ -275,10 +279,21 @@ class DriveReader {
     });
   }
 
+  /// Whether --set gives the value.
+  bool is_value_set(const std::string& path) const {
+    const toml::node* value = document_.value_at(path);
+    return value != nullptr && value->source().begin.line == 0;
+  }
   /// Whether --set gives the kind. The file's keys may then belong to another kind.
-  bool is_kind_set(const std::string& name) const {
-    const toml::node* kind = document_.value_at(name + ".kind");
-    return kind != nullptr && kind->source().begin.line == 0;
+  bool is_kind_set(const std::string& name) const { return is_value_set(name + ".kind"); }
+
+  /// The file's, and those of --set if they are to be known.
+  void know_keys_of_all_kinds(SectionReader& section, const std::string& name, bool even_if_set) {
+    for (const Parameter& parameter : all_parameters_of_drives()) {
+      for (const Key& key : keys_of(parameter, name)) {
+        if (even_if_set || !is_value_set(name + "." + key.name)) section.know(key.name);
+      }
+    }
   }
 
   /// The first of the keys that the section has; any further ones are refused.

@@ -151,6 +151,7 @@ const std::vector<ForeignWords>& all_foreign_words() {
 
 std::string guess_of_key(std::string_view section, std::string_view key,
                          const std::vector<std::string>& known) {
+  if (section == "servo") return guess_of(known, key);
   std::vector<std::string> paths = paths_with_key(key);
   const std::vector<std::string> foreign = paths_of_word(key);
   const bool is_of_section =

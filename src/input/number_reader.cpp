@@ -12,11 +12,30 @@ Measured read_in(SectionReader& section, const std::string& key, const Parameter
   return {.si = form.factor * section.number(key, wanted, number_text(parameter))};
 }
 
+/// "; or give Kv instead", of the section's other keys for it, each in one case.
+std::string or_other_keys(const Parameter& parameter, std::string_view path) {
+  std::vector<std::string> keys;
+  for (const std::string_view other : paths_of(parameter)) {
+    const std::string key(other.substr(other.find('.') + 1));
+    const bool is_of_section = section_of(other) == section_of(path) && other != path;
+    const bool is_new =
+        !any_of(keys, [&](const std::string& given) { return is_same_word(given, key); });
+    if (is_of_section && is_new) keys.push_back(key);
+  }
+  return keys.empty() ? "" : "; or give " + alternatives(keys) + " instead";
+}
+
 }  // namespace
 
 Measured read_number_of(SectionReader& section, const std::string& key, const Parameter& parameter,
                         std::string_view path, const Drive& drive, const std::string& wanted) {
   const Measured placeholder{.si = 1.0};
+  if (!section.has(key)) {
+    const auto dimension = number_forms(parameter, drive, path).front().dimension;
+    section.require(key, "must be " + (dimension ? described(*dimension) : wanted) +
+                             or_other_keys(parameter, path));
+    return placeholder;
+  }
   const std::vector<NumberForm> forms = number_forms(parameter, drive, path);
   const NumberForm* form = first_of(forms, [&](const NumberForm& one) {
     return one.dimension && section.is_of(key, *one.dimension);

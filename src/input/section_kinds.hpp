@@ -20,8 +20,9 @@ std::vector<std::pair<Drive, std::string_view>> drives_of_kinds(const Drive& dri
 /// Whether the parameter is there whatever kind the section has.
 bool is_of_every_kind(const Parameter& parameter, const Drive& drive, const std::string& section);
 
-/// "is not a key of [controller] with kind = "P", but with "PD" or "PID"". Empty if no kind of the
-/// section has the key.
+/// "is not a key of [controller] with kind = "P", but with "PD" or "PID""; "must stand beside
+/// controller.kind = "cascade"" of a key that another section's kind decides. Empty if no kind has
+/// the key.
 std::string why_of_other_kind(const Drive& drive, const std::string& section,
                               const std::string& key);
 

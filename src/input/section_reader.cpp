@@ -15,7 +15,10 @@ constexpr double placeholder_number = 0.5;
 
 constexpr char list_of_texts[] = "must be a list of texts: [\"…\", \"…\"]";
 
-/// Levenshtein distance: the least number of insertions, deletions and replacements.
+/// 'p' of 'P'.
+char small(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+/// Levenshtein distance in either case: the least number of insertions, deletions and replacements.
 std::size_t edit_distance(std::string_view from, std::string_view to) {
   std::vector<std::size_t> row(to.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -23,7 +26,7 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
     std::size_t diagonal = row[0];
     row[0] = i + 1;
     for (std::size_t j = 0; j < to.size(); ++j) {
-      const std::size_t replaced = diagonal + (from[i] == to[j] ? 0 : 1);
+      const std::size_t replaced = diagonal + (small(from[i]) == small(to[j]) ? 0 : 1);
       diagonal = row[j + 1];
       row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
     }
@@ -43,6 +46,10 @@ double exact_number(const std::string& field, const toml::node& value,
 }
 
 }  // namespace
+
+bool is_same_word(std::string_view one, std::string_view other) {
+  return one.size() == other.size() && edit_distance(one, other) == 0;
+}
 
 std::optional<std::string> nearest(const std::vector<std::string>& known,
                                    std::string_view written) {

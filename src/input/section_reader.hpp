@@ -104,6 +104,8 @@ class SectionReader {
   std::vector<double> numbers(const std::string& key, const std::string& permitted);
   /// A list of lists of numbers, by the same rule.
   std::vector<std::vector<double>> rows(const std::string& key, const std::string& permitted);
+  /// The key's value. Records a fault if the key is missing.
+  const toml::node* require(const std::string& key, const std::string& permitted);
   /// Records a fault if the key is given.
   void refuse(const std::string& key, const std::string& permitted);
 
@@ -123,7 +125,6 @@ class SectionReader {
 
  private:
   const toml::node* find(const std::string& key);
-  const toml::node* require(const std::string& key, const std::string& permitted);
   Measured read(const std::string& key, const toml::node& value, const Dimension& expected,
                 double factor);
   double read(const std::string& key, const toml::node& value, NumberText read_text);
@@ -146,7 +147,10 @@ class SectionReader {
   std::vector<std::string> known_;
 };
 
-/// The known name that is nearest to the written one; none if none is near.
+/// Whether two words are the same in either case: "Kp" and "kp".
+bool is_same_word(std::string_view one, std::string_view other);
+
+/// The known name that is nearest to the written one, in either case; none if none is near.
 std::optional<std::string> nearest(const std::vector<std::string>& known, std::string_view written);
 
 /// " (did you mean b?)", or "" if no known name is near.

@@ -10,6 +10,7 @@
 
 #include "base/lists.hpp"
 #include "gearlash/input.hpp"
+#include "input/section_reader.hpp"
 #include "input/units.hpp"
 #include "model/quantities.hpp"
 #include "model/reduced_drive.hpp"
@@ -48,8 +49,8 @@ bool has_time(Quantity quantity) {
 
 class TargetReader {
  public:
-  TargetReader(std::string_view field, TimeScale time_scale)
-      : field_(field), time_scale_(time_scale) {}
+  TargetReader(std::string_view field, TimeScale time_scale, BareNumbers bare_numbers)
+      : field_(field), time_scale_(time_scale), bare_numbers_(bare_numbers) {}
 
   void read(std::string_view condition) {
     try {
@@ -60,16 +61,20 @@ class TargetReader {
         return;
       }
       const std::optional<Condition> parts = split(condition);
-      if (!parts || parts->limit.empty()) refuse(field_, condition, target_forms);
+      if (!parts || parts->limit.empty()) refuse(field_, condition, why_incomplete(condition));
       add(condition, *parts);
     } catch (const InvalidInput& error) {
-      add_all(faults_, error.faults());
+      for (Fault fault : error.faults()) {
+        fault.value = shown(condition);
+        faults_.push_back(std::move(fault));
+      }
     }
   }
 
-  Target target() {
+  Target target(std::string_view text) {
     for (Fault& fault : faults(target_)) {
       fault.path = field_;
+      fault.value = shown(text);
       faults_.push_back(std::move(fault));
     }
     require_none(std::move(faults_));
@@ -84,10 +89,35 @@ class TargetReader {
     return nullptr;
   }
 
+  /// Of a word, or of a quantity without relation or limit.
+  static std::string why_incomplete(std::string_view condition) {
+    const std::string quantity(trimmed(condition.substr(0, condition.find_first_of("<>=≤≥"))));
+    if (!find_quantity(quantity)) return why_unknown(quantity);
+    return "must be " + quantity + " <= LIMIT or " + quantity + " >= LIMIT, with the limit's unit";
+  }
+
+  static std::string why_unknown(std::string_view name) {
+    const std::string guess = guess_of(known_words(), name);
+    return guess.empty() ? target_forms : "must name a quantity or a condition" + guess;
+  }
+
+  static std::vector<std::string> known_words() {
+    std::vector<std::string> words = {"no-hunting", "no-hunting-if-disturbed", "no-runaway"};
+    for (std::string& name : names_of_quantities(QuantityKind::number)) {
+      std::replace(name.begin(), name.end(), '_', '-');
+      words.push_back(std::move(name));
+    }
+    return words;
+  }
+
   void add(std::string_view condition, const Condition& parts) {
     const std::optional<Quantity> quantity = find_quantity(parts.quantity);
-    if (!quantity || info_of(*quantity).kind != QuantityKind::number)
-      refuse(field_, condition, target_forms);
+    if (!quantity || info_of(*quantity).kind != QuantityKind::number) {
+      refuse(field_, condition, why_unknown(parts.quantity));
+    }
+    if (parts.limit.find_first_of("<>") != std::string_view::npos) {
+      refuse(field_, condition, "must have \"and\" between its conditions");
+    }
     const bool is_period = quantity == Quantity::period;
     if (time_scale_ == TimeScale::unknown && has_time(*quantity)) {
       refuse(field_, condition,
@@ -109,12 +139,15 @@ class TargetReader {
       return to_si(field_, text, dimensions::angular_frequency) / (2.0 * std::numbers::pi);
     }
     if (dimension == nullptr) return read_share(field_, text);
-    if (dimension == &dimensions::angle) return read_measured(field_, text, dimensions::angle).si;
+    if (dimension == &dimensions::angle && bare_numbers_ == BareNumbers::in_si) {
+      return read_measured(field_, text, dimensions::angle).si;
+    }
     return to_si(field_, text, *dimension);
   }
 
   std::string field_;
   TimeScale time_scale_;
+  BareNumbers bare_numbers_;
   Target target_;
   std::vector<Fault> faults_;
 };
@@ -129,10 +162,11 @@ std::vector<std::string> names_of_quantities(std::optional<QuantityKind> kind) {
   return names;
 }
 
-Target read_target(std::string_view field, std::string_view text, TimeScale time_scale) {
-  TargetReader reader(field, time_scale);
+Target read_target(std::string_view field, std::string_view text, TimeScale time_scale,
+                   BareNumbers bare_numbers) {
+  TargetReader reader(field, time_scale, bare_numbers);
   for (const std::string_view condition : split(text, " and ")) reader.read(condition);
-  return reader.target();
+  return reader.target(text);
 }
 
 Target parse_target(std::string_view text, const Drive& drive) {

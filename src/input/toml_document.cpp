@@ -28,6 +28,8 @@ std::string named_place(const std::string& source_name, Place place) {
 
 bool is_ascii(char c) { return static_cast<unsigned char>(c) < 0x80; }
 
+bool is_ascii_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
 std::string_view without_byte_order_mark(std::string_view text) {
   constexpr std::string_view mark = "\xEF\xBB\xBF";
   if (text.starts_with(mark)) text.remove_prefix(mark.size());
@@ -185,8 +187,15 @@ TomlDocument::TomlDocument(std::string_view text, std::string_view source_name, 
     root_ = parsed(text);
   } catch (const toml::parse_error& error) {
     const Place place = error.source().begin;
-    refuse_at(where(place), "line", shown(line(place.line)),
-              "must be TOML: " + shown(error.description(), 200));
+    const std::string_view wrong = line(place.line);
+    const std::string_view value = wrong.substr(std::min(wrong.rfind('='), wrong.size()));
+    const bool is_word_without_quotes =
+        value.find_first_of("\"'") == value.npos && any_of(value, is_ascii_letter);
+    refuse_at(
+        where(place), "line", shown(wrong),
+        "must be TOML: " + shown(error.description(), 200) +
+            (is_word_without_quotes ? "; a word, or a number with a unit, needs quotes: \"3 kg m2\""
+                                    : ""));
   }
   require_doubles(root_);
 }

@@ -86,8 +86,9 @@ class UnitReader {
       if (take("/") || take("per ")) {
         result.multiply(power(true), -1);
       } else {
-        if (!take("*") && !take(".")) take("-");
-        result.multiply(power(false), 1);
+        const bool number_allowed = take("*");  // "0.5 kg * 9.81 m/s2"
+        if (!number_allowed && !take(".")) take("-");
+        result.multiply(power(number_allowed), 1);
       }
     }
     return result;
@@ -102,7 +103,8 @@ class UnitReader {
     }
     if (!rest_.empty() && is_digit(rest_[0])) {
       if (!number_allowed) {
-        throw NotAUnit("within a unit a number may only be a power, or a divisor: V/(1000 rpm)");
+        throw NotAUnit(
+            "within a unit a number may only be a power, a divisor or after *: V/(1000 rpm)");
       }
       return number();
     }
@@ -112,7 +114,8 @@ class UnitReader {
   Unit number() {
     const std::size_t length = number_length(rest_);
     const std::optional<double> value = nearest_double(rest_.substr(0, length));
-    if (!value || !(*value > 0.0)) throw NotAUnit("a divisor must be positive and finite");
+    if (!value || !(*value > 0.0))
+      throw NotAUnit("a divisor or factor must be positive and finite");
     rest_.remove_prefix(length);
     Unit result;
     result.factor = *value;

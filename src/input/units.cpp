@@ -95,6 +95,23 @@ void require_dimension(std::string_view field, std::string_view text, std::strin
   }
 }
 
+/// The value of a number, or of a fraction of two.
+double number_or_fraction(std::string_view field, std::string_view text,
+                          std::string_view permitted) {
+  const std::string_view trimmed_text = trimmed(text);
+  if (trimmed_text == "inf" || trimmed_text == "+inf") {
+    return std::numeric_limits<double>::infinity();
+  }
+  const Fraction fraction = fraction_in(trimmed_text);
+  const std::optional<double> numerator = decimal(fraction.above);
+  const std::optional<double> denominator = decimal(fraction.below);
+  if (!numerator || !denominator) refuse(field, text, std::string(permitted));
+  if (*denominator == 0.0) refuse(field, text, "must not be divided by 0");
+  const double value = *numerator / *denominator;
+  if (!std::isfinite(value)) refuse(field, text, "must be a number from -1e308 to 1e308");
+  return value + 0.0;
+}
+
 /// Whether `c` is a control character or another one that would break or disguise a line.
 bool is_unfit_for_line(char32_t c) {
   return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x2028 || c == 0x2029 ||
@@ -216,20 +233,8 @@ double to_si(std::string_view field, std::string_view text, const Dimension& exp
 }
 
 double read_number(std::string_view field, std::string_view text) {
-  const std::string_view trimmed_text = trimmed(text);
-  if (trimmed_text == "inf" || trimmed_text == "+inf") {
-    return std::numeric_limits<double>::infinity();
-  }
-  const Fraction fraction = fraction_in(trimmed_text);
-  const std::optional<double> numerator = decimal(fraction.above);
-  const std::optional<double> denominator = decimal(fraction.below);
-  if (!numerator || !denominator) {
-    refuse(field, text, "must be a number without unit, such as 0.25, 1e-3 or 1/9");
-  }
-  if (*denominator == 0.0) refuse(field, text, "must not be divided by 0");
-  const double value = *numerator / *denominator;
-  if (!std::isfinite(value)) refuse(field, text, "must be a number from -1e308 to 1e308");
-  return value + 0.0;
+  return number_or_fraction(field, text,
+                            "must be a number without unit, such as 0.25, 1e-3 or 1/9");
 }
 
 double read_part(std::string_view field, std::string_view text) {
@@ -237,11 +242,13 @@ double read_part(std::string_view field, std::string_view text) {
 }
 
 double read_share(std::string_view field, std::string_view text) {
-  const std::string_view trimmed_text = trimmed(text);
-  if (!trimmed_text.ends_with('%')) return read_part(field, text);
   constexpr double percent = 100.0;
-  const std::string_view number = trimmed_text.substr(0, trimmed_text.size() - 1);
-  return not_down_to_one(read_number(field, number) / percent, number, 2);
+  constexpr std::string_view permitted = "must be a number without unit, such as 0.25 or \"25 %\"";
+  std::string_view number = trimmed(text);
+  const bool is_percent = number.ends_with('%');
+  if (is_percent) number.remove_suffix(1);
+  const double value = number_or_fraction(field, number, permitted);
+  return not_down_to_one(is_percent ? value / percent : value, number, is_percent ? 2 : 0);
 }
 
 std::optional<double> bare_number(std::string_view text) {

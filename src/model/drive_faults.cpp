@@ -4,6 +4,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/decimal.hpp"
 #include "base/lists.hpp"
 #include "base/range_check.hpp"
 #include "gearlash/bounds.hpp"
@@ -62,9 +63,9 @@ namespace {
 void check_breakaway(RangeCheck& check, const Friction& friction, double coulomb,
                      const std::string& shaft, const std::string& least) {
   if (!friction.breakaway || *friction.breakaway >= coulomb) return;
-  check.refuse(
-      shaft + ".breakaway", exact_text(*friction.breakaway) + " N m",
-      "must be at least " + least + ": a shaft at rest is not easier to move than a moving one");
+  check.refuse(shaft + ".breakaway", exact_text(*friction.breakaway) + " N m",
+               "must be at least " + least + ", " + rounded_text(coulomb, 6) +
+                   " N m: a shaft at rest is not easier to move than a moving one");
 }
 
 /// Of dry friction and torque limit, each is given once.
@@ -72,10 +73,9 @@ void check_torques(RangeCheck& check, const Drive& drive) {
   const Motor& motor = drive.motor;
   const double coulomb = coulomb_torque(motor);
   const bool is_by_current = motor.no_load_current && takes_no_load_current(motor);
-  check_breakaway(check, motor.friction, coulomb, "motor",
-                  is_by_current ? "motor.torque_constant * motor.no_load_current, " +
-                                      exact_text(coulomb) + " N m"
-                                : "motor.coulomb");
+  check_breakaway(
+      check, motor.friction, coulomb, "motor",
+      is_by_current ? "motor.torque_constant * motor.no_load_current" : "motor.coulomb");
   check_breakaway(check, drive.load.friction, drive.load.friction.coulomb, "load", "load.coulomb");
   if (motor.limit && motor.current_limit && limits_torque_by_current(motor)) {
     check.refuse("motor.torque_limit", exact_text(*motor.limit) + " N m",

@@ -72,12 +72,20 @@ bool may_have_current_limit(const Drive& drive) {
   return is_plant(drive) && is_free && takes_current_limit(drive.motor);
 }
 
+constexpr RefusedWord not_a_kind(std::string_view word) {
+  return {word,
+          "must be \"torque-controlled\" where an amplifier controls the current, as servo drives "
+          "do; or \"brushed-dc\" where a voltage drives it"};
+}
+
 /// Each kind of motor has constants of its own.
 std::vector<Parameter> motor_parameters() {
   return {entry("motor.kind", motor_kind,
                 "kind of motor: the controller outputs volts to a winding, or torque",
                 Words{"armature-controlled", "field-controlled", "two-phase", "torque-controlled"},
-                OtherWord{"brushed-dc", 0}, required),
+                OtherWord{"brushed-dc", 0}, not_a_kind("bldc"), not_a_kind("BLDC"),
+                not_a_kind("pmsm"), not_a_kind("PMSM"), not_a_kind("brushless"),
+                not_a_kind("servo"), not_a_kind("stepper"), not_a_kind("dc"), required),
           entry("motor.inertia", in_motor<&Motor::inertia>,
                 "moment of inertia of the rotor, at its own shaft", unit<inertia>, not_negative,
                 required, OtherForm{"joint.armature"}, UsualRange{1e-8, 1e-1}),

@@ -156,6 +156,7 @@ inline void set_rule(Parameter& row, Wanted rule) { row.wanted = rule.text; }
 inline void set_rule(Parameter& row, UsualRange rule) { row.usual = rule; }
 inline void set_rule(Parameter& row, OtherForm rule) { row.other_forms.push_back(rule); }
 inline void set_rule(Parameter& row, OtherWord rule) { row.other_words.push_back(rule); }
+inline void set_rule(Parameter& row, RefusedWord rule) { row.refused_words.push_back(rule); }
 inline void set_rule(Parameter& row, Words rule) { row.choices = std::move(rule); }
 
 // ---- rows ---------------------------------------------------------------------------------------

@@ -99,10 +99,14 @@ TEST(BadInput, AnOptionAndASettingThatContradictEachOtherAreNamed) {
                       "--set", "gearbox.backlash=3 arcmin"}),
               ElementsAre("gearlash: --backlash = 5 arcmin: must be left out, or --set "
                           "gearbox.backlash=3 arcmin"));
-  EXPECT_THAT(
-      faults({"limit-cycle", "--damping", "0.2", "--inertia-ratio", "1", "--friction-ratio", "0.5",
-              "--backlash", "0.1", "--set", "servo.backlash=0.2"}),
-      ElementsAre("gearlash: --backlash = 0.1: must be left out, or --set servo.backlash=0.2"));
+  EXPECT_THAT(faults({"limit-cycle", "--damping", "0.2", "--inertia-ratio", "1", "--friction-ratio",
+                      "0.5", "--backlash", "0.1", "--set", "servo.backlash=0.2"}),
+              ElementsAre("gearlash: --backlash = 0.1: must be left out, or --set "
+                          "servo.backlash=0.2"));
+  EXPECT_THAT(faults({"limit-cycle", "examples/robot-joint.toml", "--set", "controller.Kp=1 V/deg",
+                      "--set", "controller.proportional=2 V/deg"}),
+              ElementsAre("gearlash: --set = controller.proportional=2 V/deg: must be left out, or "
+                          "--set controller.Kp=1 V/deg"));
 }
 
 TEST(BadInput, FaultsOfTheFileCarryItsPlaceAndStandBesideThoseOfOptions) {

@@ -90,7 +90,7 @@ TEST(EdgeTuneCommand, FaultsAreToldAtOnce) {
                 "--write", "examples/robot-joint.toml"});
   EXPECT_EQ(run.status, 2);
   for (const char* text : {"--for = beauty", "--share = 0", "--units = 0", "load.colour",
-                           "--target = 2 kg", "--write"}) {
+                           "--target = amplitude >= 2 kg", "--write"}) {
     EXPECT_THAT(run.err, HasSubstr(text));
   }
 }

@@ -50,7 +50,7 @@ void rewrite() {
 TEST(WrongInputs, EachGivesItsMessageAndStatus2) {
   if (std::getenv("GEARLASH_REWRITE") != nullptr) rewrite();
   const std::vector<Entry> all = entries();
-  EXPECT_GE(all.size(), 120U);
+  EXPECT_GE(all.size(), 200U);
   for (const Entry& entry : all) {
     const Outcome outcome = run(entry);
     EXPECT_EQ(outcome.status, 2) << entry.command;

@@ -238,7 +238,7 @@ restitution = 1.5
           "load, contact, sensor, controller, sampling, reference, load_torque, specification, "
           "loop, joint, actuator (did you mean motor?)",
           "s.toml:2:1: motor.back_emf_constant is missing: must be a voltage per angular speed, "
-          "such as 3.67 mV/rpm",
+          "such as 3.67 mV/rpm; or give speed_constant instead",
           "s.toml:4:1: motor.inertai = 3 kg m2: is not a key of [motor]: must be one of kind, "
           "inertia, friction, torque_constant, back_emf_constant, speed_constant, resistance, "
           "inductance, coulomb, no_load_current, breakaway, stribeck_speed, voltage_limit, "

@@ -327,14 +327,16 @@ TEST(EdgeDriveFile, EveryFaultIsToldAtOnce) {
   text = replaced(text, "period = \"1 ms\"", "period = \"0 s\"");
   text = replaced(text, "speed = \"1 rad/s\"", "speed = \"0 rad/s\"");
   text = replaced(text, "after = \"0.1 N m\"", "after = \"0.1 rad\"");
-  EXPECT_THAT(refusals(text),
-              ElementsAre("drive.toml:6:13: motor.breakaway = 2 mN m: must be at least "
-                          "motor.coulomb: a shaft at rest is not easier to move than a moving one",
-                          HasSubstr("contact.stiffness = -1 N m/rad: must be positive"),
-                          HasSubstr("sensor.counts_per_turn = 0: must be positive"),
-                          HasSubstr("sampling.period = 0 s: must be positive"),
-                          HasSubstr("reference.speed = 0 rad/s: must be positive"),
-                          HasSubstr("load_torque.after = 0.1 rad: must be a torque")));
+  EXPECT_THAT(
+      refusals(text),
+      ElementsAre(
+          "drive.toml:6:13: motor.breakaway = 2 mN m: must be at least "
+          "motor.coulomb, 0.003 N m: a shaft at rest is not easier to move than a moving one",
+          HasSubstr("contact.stiffness = -1 N m/rad: must be positive"),
+          HasSubstr("sensor.counts_per_turn = 0: must be positive"),
+          HasSubstr("sampling.period = 0 s: must be positive"),
+          HasSubstr("reference.speed = 0 rad/s: must be positive"),
+          HasSubstr("load_torque.after = 0.1 rad: must be a torque")));
 }
 
 TEST(EdgeDriveFile, ControllersThatNothingCanBeGetALine) {

@@ -78,24 +78,43 @@ TEST(EdgeTargetText, FaultsAreToldAtOnceEachInALine) {
   EXPECT_THAT(
       faults_of("speed <= 3 and size <= 1 kg and size"),
       ElementsAre(StartsWith("--target = speed <= 3: must be no-hunting, no-hunting-if-disturbed"),
-                  StartsWith("--target = 1 kg: must be"),
-                  StartsWith("--target = size: must be no-hunting, no-hunting-if-disturbed")));
+                  StartsWith("--target = size <= 1 kg: must be an angle"),
+                  StartsWith("--target = size: must be size <= LIMIT or size >= LIMIT")));
   EXPECT_THAT(faults_of(""), ElementsAre(StartsWith("--target = \"\": must be no-hunting")));
   EXPECT_THAT(faults_of("size <="), ElementsAre(StartsWith("--target = size <=: must be")));
   EXPECT_THAT(faults_of("size <= -1"),
               ElementsAre("--target = size <= -1: must have a limit of 0 or more"));
   EXPECT_THAT(faults_of("period <= 0 s"),
               ElementsAre("--target = period <= 0 s: must have a positive limit"));
-  EXPECT_THAT(
-      faults_of("size <= 0.1 and size >= 0.2"),
-      ElementsAre("--target = amplitude >= 0.2 and amplitude <= 0.1: must not contradict itself"));
-  EXPECT_THAT(
-      faults_of("no-hunting-if-disturbed and size >= 0.2"),
-      ElementsAre("--target = no-hunting-if-disturbed and amplitude >= 0.2: must not contradict "
-                  "itself"));
+  EXPECT_THAT(faults_of("size <= 0.1 and size >= 0.2"),
+              ElementsAre("--target = size <= 0.1 and size >= 0.2: must not contradict itself"));
+  EXPECT_THAT(faults_of("no-hunting-if-disturbed and size >= 0.2"),
+              ElementsAre("--target = no-hunting-if-disturbed and size >= 0.2: must not contradict "
+                          "itself"));
   EXPECT_THAT(faults_of("frequency >= 5 Hz", TimeScale::unknown),
               ElementsAre("--target = frequency >= 5 Hz: needs a time scale: a servo with a "
                           "natural_frequency, or a data sheet"));
+}
+
+TEST(EdgeTargetText, MisspeltNamesGetAGuess) {
+  using testing::ElementsAre;
+  EXPECT_THAT(faults_of("bandwith >= 3 Hz and no-huntng"),
+              ElementsAre("--target = bandwith >= 3 Hz: must name a quantity or a condition (did "
+                          "you mean bandwidth?)",
+                          "--target = no-huntng: must name a quantity or a condition (did you mean "
+                          "no-hunting?)"));
+  EXPECT_THAT(faults_of("amplitude <= 1 deg, bandwidth >= 3 Hz"),
+              ElementsAre("--target = amplitude <= 1 deg, bandwidth >= 3 Hz: must have \"and\" "
+                          "between its conditions"));
+}
+
+TEST(EdgeTargetText, AnAngleWithoutUnitIsInRadiansOnlyWhereTheseAreTaken) {
+  EXPECT_EQ(read("amplitude <= 0.5").permitted(Quantity::amplitude).high, 0.5);
+  EXPECT_THAT(test::faults_of([] {
+                read_target("--target", "amplitude <= 0.5", TimeScale::known, BareNumbers::refused);
+              }),
+              testing::ElementsAre("--target = amplitude <= 0.5: must be an angle with its unit, "
+                                   "such as 12 arcmin"));
 }
 
 }  // namespace

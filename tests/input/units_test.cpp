@@ -307,13 +307,22 @@ TEST(Units, NamesTheWordOrSignItCannotRead) {
             "key = 1 kg @ 3: " + expected + "there is no unit at \"@ 3\"");
   EXPECT_EQ(refusal("1 2 kg m2", inertia),
             "key = 1 2 kg m2: " + expected +
-                "within a unit a number may only be a power, or a divisor: V/(1000 rpm)");
+                "within a unit a number may only be a power, a divisor or after *: V/(1000 rpm)");
   EXPECT_TRUE(refusal("1 s since 1970", inertia).starts_with("key = "));
   EXPECT_TRUE(refusal("1 lb(re 1 mW)", inertia).starts_with("key = "));
   EXPECT_TRUE(refusal("1 \xFF", inertia).starts_with("key = 1 \\xff: "));
   EXPECT_TRUE(refusal("1 " + std::string(1000, '('), inertia).size() < 300);
   EXPECT_TRUE(refusal("1 kg m2/0", inertia).starts_with("key = "));
   EXPECT_TRUE(refusal("1 kg m2/(1e999)", inertia).starts_with("key = "));
+}
+
+TEST(Units, MultipliesNumbersWithUnits) {
+  const auto torque = [](const char* text) { return to_si("key", text, dimensions::torque); };
+  EXPECT_NEAR(torque("0.5 kg * 9.81 m/s2 * 0.15 m"), 0.5 * 9.81 * 0.15, 1e-15);
+  EXPECT_NEAR(torque("500 g × 9.81 m/s² × 150 mm"), 0.5 * 9.81 * 0.15, 1e-15);
+  EXPECT_NEAR(to_si("key", "0.5 kg * (0.15 m)^2", inertia), 0.5 * 0.15 * 0.15, 1e-17);
+  EXPECT_TRUE(refusal("0.5 kg * 9.81 m/s2", dimensions::torque).starts_with("key = "));
+  EXPECT_TRUE(refusal("0.5 kg * 0 m2", inertia).ends_with("must be positive and finite"));
 }
 
 TEST(Units, QuantityKeepsTheUnitAsWritten) {

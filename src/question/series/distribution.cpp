@@ -72,7 +72,8 @@ class DistributionCheck {
  private:
   void require_order(double min, double max) {
     if (min > max) {
-      check_.refuse("max", exact_text(max), "must be at least min, " + exact_text(min));
+      check_.refuse("max", exact_text(max),
+                    "must be at least min, " + exact_text(min) + " in SI units");
     }
   }
 

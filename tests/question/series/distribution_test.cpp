@@ -109,7 +109,7 @@ TEST(EdgeDistribution, EveryFaultIsNamed) {
   EXPECT_THAT(faults_of(ExactValue{infinity}),
               ElementsAre("load.inertia.value = inf: must be finite"));
   EXPECT_THAT(faults_of(UniformBetween{2.0, 1.0}),
-              ElementsAre("load.inertia.max = 1: must be at least min, 2"));
+              ElementsAre("load.inertia.max = 1: must be at least min, 2 in SI units"));
   EXPECT_THAT(faults_of(within_share(2.0, -0.5)),
               ElementsAre("load.inertia.tolerance = -1: must be zero or positive, and finite"));
   EXPECT_THAT(faults_of(Normal{infinity, 0.0}),
