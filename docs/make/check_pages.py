@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks the pages: links within the repository, spelling, length of sentences.
+"""Checks the pages: links within the repository, spelling, length of sentences and of reports.
 
 Usage: check_pages.py [--list-words] [FOLDER]
 
@@ -22,6 +22,9 @@ MOST_WORDS = 20  # in the mean of a page
 FORMULAS = {f"docs/explanation/{name}.md" for name in
             ("absence-by-energy", "boxes", "ceiling", "describing-functions", "every-motion",
              "motions", "servo")}
+
+REPORTS = "docs/reference/reports.md"
+MOST_LINES = 40  # of a report, as it is shown there
 
 LINK = re.compile(r"(?<!\\)\[((?:[^\[\]]|\[[^\[\]]*\])*)\]\(([^)\s]+)\)")
 
@@ -120,6 +123,17 @@ def sentences_of(page):
                 yield len(words)
 
 
+def faults_of_reports():
+    """A report that is too long to be read on one screen. Its first line here is the command."""
+    shown = re.findall(r"^```text\n\$ (.+)\n((?:.*\n)*?)```$", (ROOT / REPORTS).read_text(), re.MULTILINE)
+    if not shown:
+        yield f"{REPORTS}: shows no report"
+    for command, report in shown:
+        lines = report.count("\n")
+        if lines > MOST_LINES:
+            yield f"{REPORTS}: {command}: {lines} lines: must be at most {MOST_LINES}"
+
+
 def is_word(text):
     """Whether it is none of the symbols and units that formulas leave in the text, nor a name of code
     (TuneTask)."""
@@ -146,7 +160,7 @@ def faults_of_spelling(page, words):
 
 
 def main():
-    faults = []
+    faults = list(faults_of_reports())
     words = set()
     for folder in sys.argv[1:]:
         if folder.startswith("--"):
