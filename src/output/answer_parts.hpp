@@ -33,6 +33,10 @@ struct AnswerUnits {
 /// rad; that of the normal form of a drive that has one.
 double backlash_of(const AnswerReport& report);
 
+/// The cycle that small displacements lead to, where a search has it; else the one seen in
+/// practice. nullptr where the headline's motion is no cycle.
+const Cycle* first_cycle(const Answer& answer);
+
 /// Whether the load stands on the cycle.
 bool is_of_motor_alone(const Cycle& cycle);
 

@@ -27,7 +27,18 @@ std::string joined(const std::vector<std::string>& parts) {
   return listed(parts, std::identity(), ", ");
 }
 
-bool is_at_rest(const Without& one) { return one.error && !hunts(one.verdict); }
+/// From small displacements at least.
+bool is_at_rest(const Without& one) {
+  const bool rests = one.verdict == Verdict::cannot_hunt || one.verdict == Verdict::comes_to_rest ||
+                     one.verdict == Verdict::runs_away_if_disturbed;
+  return rests && one.error && std::isfinite(*one.error);
+}
+
+/// "a, b and c".
+std::string enumerated(const std::vector<std::string>& words) {
+  const std::vector<std::string> first(words.begin(), words.end() - 1);
+  return first.empty() ? words.back() : listed(first) + " and " + words.back();
+}
 
 // ---- the specification --------------------------------------------------------------------------
 
@@ -80,7 +91,7 @@ std::string cycle_row_text(const Cycle& cycle, const AnswerUnits& units) {
 
 /// The cycle that is seen in practice.
 std::string motion_table(const AnswerReport& report) {
-  const Cycle* cycle = report.answer.largest_stable();
+  const Cycle* cycle = first_cycle(report.answer);
   if (cycle == nullptr || is_of_motor_alone(*cycle)) return "";  // the headline has it
   const AnswerUnits units = units_of(report);
   const double backlash = backlash_of(report);
@@ -106,7 +117,7 @@ std::string motion_table(const AnswerReport& report) {
 
 /// What feeds the cycle, and what each loss takes.
 std::string balance_text(const AnswerReport& report) {
-  const Cycle* cycle = report.answer.largest_stable();
+  const Cycle* cycle = first_cycle(report.answer);
   if (cycle == nullptr || !cycle->energy || is_of_motor_alone(*cycle)) return "";
   const AnswerUnits units = units_of(report);
   const EnergyBalance& energy = *cycle->energy;
@@ -151,14 +162,14 @@ std::string others_text(const AnswerReport& report) {
     }
   };
   for (const Cycle& cycle : answer.cycles) {
-    if (&cycle == answer.largest_stable()) continue;
+    if (&cycle == first_cycle(answer)) continue;
     if (cycle.stability == Stability::unstable) {
       ++unstable;
     } else {
       add(cycle, "limit cycle", cycle_row_text(cycle, units));
     }
   }
-  const bool is_first_named = answer.largest_stable() == nullptr;
+  const bool is_first_named = first_cycle(answer) == nullptr;
   for (std::size_t i = is_first_named ? 1 : 0; i < answer.irregular.size(); ++i) {
     const IrregularMotion& motion = answer.irregular[i];
     add(motion, motion.repeats() ? "swings that repeat" : "irregular",
@@ -167,7 +178,8 @@ std::string others_text(const AnswerReport& report) {
   if (more > 0) rows.push_back({"and", std::to_string(more) + " more"});
   if (small > 0) {
     rows.push_back({"of few encoder steps", std::to_string(small),
-                    "up to " + units.swing(largest_small) + " of the load"});
+                    largest_small > 0.0 ? "up to " + units.swing(largest_small) + " of the load"
+                                        : "of the motor alone"});
   }
   if (unstable > 0) rows.push_back({"unstable cycles", std::to_string(unstable)});
   return rows.empty() ? "" : "\nOther motions\n" + table_text(rows);
@@ -194,7 +206,7 @@ std::string causes_text(const AnswerReport& report) {
   std::string text = "\nThe same drive\n" + table_text(rows);
   const bool swings = answer.largest_stable() != nullptr || !answer.irregular.empty();
   if (swings && !needed.empty()) {
-    text += wrapped("So its hunting needs " + listed(needed, std::identity(), " and ") + ".");
+    text += wrapped("So its hunting needs " + enumerated(needed) + ".");
   }
   return text;
 }
@@ -211,21 +223,18 @@ std::string loop_text(const AnswerReport& report) {
                                 : units.number(hertz) + " Hz";
   };
   constexpr double degrees = 180.0 / std::numbers::pi;
-  TextRows rows;
-  if (!loop.is_stable) rows.push_back({"not stable", "", "or not proved to be"});
-  if (loop.phase_margin) {
-    rows.push_back({"phase margin", units.number(*loop.phase_margin * degrees) + "°",
-                    "at the crossover, " + frequency(*loop.crossover)});
-  }
-  if (loop.gain_margin) {
-    rows.push_back({"gain margin", "×" + units.number(*loop.gain_margin),
-                    "at " + frequency(*loop.phase_crossover)});
-  }
-  if (loop.bandwidth) rows.push_back({"bandwidth", frequency(*loop.bandwidth)});
-  if (loop.lag) rows.push_back({"lag", units.angle(*loop.lag), "behind the moving reference"});
-  if (rows.empty()) rows.push_back({"stable"});
-  return "\nLinear loop, with the gap closed" + std::string(loop.is_stable ? ", stable" : "") +
-         "\n" + table_text(rows);
+  const std::string text =
+      joined({loop.phase_margin ? "phase margin " + units.number(*loop.phase_margin * degrees) +
+                                      "° at " + frequency(*loop.crossover)
+                                : "",
+              loop.gain_margin ? "gain margin ×" + units.number(*loop.gain_margin) + " at " +
+                                     frequency(*loop.phase_crossover)
+                               : "",
+              loop.bandwidth ? "bandwidth " + frequency(*loop.bandwidth) : "",
+              loop.lag ? "lag " + units.angle(*loop.lag) + " behind the moving reference" : ""});
+  return "\nLinear loop, with the gap closed: " +
+         std::string(loop.is_stable ? "stable" : "not stable") + "\n" +
+         (text.empty() ? "" : table_text({{text}}));
 }
 
 std::string step_text(const AnswerReport& report) {
@@ -234,6 +243,10 @@ std::string step_text(const AnswerReport& report) {
   const AnswerUnits units = units_of(report);
   const StepResponse& step = *answer.step;
   const std::string band = units.swing(step.band);
+  const bool is_within_gap = std::abs(step.step) < backlash_of(report);
+  constexpr double seen = 1e-6;
+  const bool ends_off =
+      !step.settling_time && std::abs(step.final_error) > seen * std::abs(step.step);
   const std::string text = joined(
       {step.rise_time ? "rises in " + units.time(*step.rise_time) : "does not rise",
        step.overshoot && step.rise_time
@@ -241,8 +254,7 @@ std::string step_text(const AnswerReport& report) {
            : "",
        step.settling_time ? "settles within " + band + " in " + units.time(*step.settling_time)
                           : "does not settle within " + band,
-       step.settling_time ? "" : "ends " + units.angle(std::abs(step.final_error)) + " off"});
-  const bool is_within_gap = std::abs(step.step) < backlash_of(report);
+       ends_off ? "ends " + units.angle(std::abs(step.final_error)) + " off" : ""});
   return "\nStep of " + units.angle(step.step) +
          (is_within_gap ? ", less than the gap: --step gives another" : "") + "\n" +
          table_text({{text}});
@@ -263,9 +275,9 @@ std::string short_rest_text(const AnswerReport& report) {
          units.angles(piece.load)});
   }
   if (rest.time) {
-    rows.push_back({"time to rest, longest", units.time(rest.time->longest),
+    rows.push_back({"time to rest",
+                    units.time(rest.time->longest) + ", median " + units.time(rest.time->median),
                     "within " + units.swing(rest.time->band) + " of where it ends"});
-    rows.push_back({"time to rest, median", units.time(rest.time->median)});
   }
   if (rest.creeping_starts > 0) {
     rows.push_back({"creeps there", starts_text(rest.creeping_starts)});
@@ -281,8 +293,8 @@ std::string short_ceiling_text(const AnswerReport& report) {
   const auto angle = [&](double value) {
     return swing_bound_text(value, report.angle, usual_digits);
   };
-  std::string text = "Ceiling: no motion exceeds " + angle(*ceiling.load) + " in the end" +
-                     below_limit_text(ceiling) + " (proved)";
+  std::string text = "Ceiling: in the end no motion is farther than " + angle(*ceiling.load) +
+                     " from that without a gap" + below_limit_text(ceiling) + " (proved)";
   if (ceiling.terms.size() > 1) {
     text += ": " + listed(ceiling.terms, [&](const CeilingTerm& term) {
               return term.source + " " + angle(term.load);

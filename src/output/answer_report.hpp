@@ -39,9 +39,9 @@ struct AnswerReport {
   AngleUnit angle{};  ///< the author's, of text
   /// The normal form without a natural frequency: text has times in units of 1/ω_n.
   bool is_normalized = false;
-  Provenance provenance{};                ///< how it was made
-  std::optional<HuntingMargin> margin{};  ///< on request, as is `sensitivity`
-  std::optional<Jacobian> sensitivity{};  ///< derivatives, on request
+  Provenance provenance{};                    ///< how it was made
+  std::optional<HuntingMargin> margin{};      ///< on request, as is `sensitivity`
+  std::optional<Jacobian> sensitivity{};      ///< derivatives, on request
   std::optional<MeasuredHunting> measured{};  ///< to be compared with every motion found
 
   [[nodiscard]] std::optional<double> widest_backlash()

@@ -145,9 +145,11 @@ std::string minutes_text(const AnswerReport& report) {
 /// "comes to rest, up to 5 arcmin off".
 std::string rest_clause(const AnswerReport& report) {
   const std::optional<double> error = report.answer.value(Quantity::static_error);
-  const std::string where = !error          ? ""
-                            : *error == 0.0 ? " at the reference"
-                                            : error_text(report, *error, 0.0);
+  constexpr double unseen = 1e-6;  // of the backlash: rounding
+  const std::string where = !error ? ""
+                            : *error <= unseen * backlash_of(report)
+                                ? " at the reference"
+                                : error_text(report, *error, 0.0);
   return "comes to rest" + where + minutes_text(report);
 }
 
@@ -245,6 +247,21 @@ std::string certainty_clause(const Answer& answer) {
 }
 
 }  // namespace
+
+const Cycle* first_cycle(const Answer& answer) {
+  const Cycle* largest = nullptr;
+  bool is_irregular = false;
+  if (answer.search) {
+    for (const std::size_t i : smallest_starts(*answer.search)) {
+      const StartOutcome& start = answer.search->starts[i];
+      if (start.end == "irregular") is_irregular = true;
+      if (start.end != "cycle" || !start.which) continue;
+      const Cycle& cycle = answer.cycles[*start.which];
+      if (largest == nullptr || cycle.amplitude > largest->amplitude) largest = &cycle;
+    }
+  }
+  return largest != nullptr || is_irregular ? largest : answer.largest_stable();
+}
 
 std::string headline(const AnswerReport& report) {
   const std::string small = small_clause(report);

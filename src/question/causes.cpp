@@ -171,7 +171,9 @@ std::optional<Note> note_on_wind_up(const Drive& drive, const Analysis& analysis
   const Without* proportional = first_of(analysis.answer.without, [](const Without& one) {
     return one.cause == Cause::integral_action;
   });
-  if (starts.running_away.empty() || proportional == nullptr || runs_away(proportional->verdict)) {
+  const bool is_unstable = analysis.answer.loop && !analysis.answer.loop->is_stable;
+  if (is_unstable || starts.running_away.empty() || proportional == nullptr ||
+      runs_away(proportional->verdict)) {
     return std::nullopt;
   }
   std::string text =
@@ -184,9 +186,9 @@ std::optional<Note> note_on_wind_up(const Drive& drive, const Analysis& analysis
     const Verdict verdict = analyse_in_full(cured, {.proofs = false, .borders = false}, progress,
                                             {.starts = starts.running_away})
                                 .answer.verdict;
-    if (!runs_away(verdict) && verdict != Verdict::undecided) {
+    if (is_at_rest(verdict)) {
       text += ": with controller.tracking_time = \"" + exact_text(1e3 * missing.integral_time) +
-              " ms\", the integral time, the same step does not run away";
+              " ms\", the integral time, it comes to rest after the same step";
     }
   }
   return Note{"wind-up", text + "."};

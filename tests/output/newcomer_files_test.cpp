@@ -51,9 +51,7 @@ TEST(NewcomerFiles, AreToldAllThatLacks) {
           HasSubstr("motor.inertia is missing: must be a moment of inertia, such as 0.3 kg cm2"),
           HasSubstr("motor.friction is missing"), HasSubstr("motor.torque_constant is missing"),
           HasSubstr("motor.back_emf_constant is missing"), HasSubstr("motor.resistance is missing"),
-          HasSubstr("load.friction is missing"),
-          HasSubstr("load.gravity = 0.5 kg * 9.81 m/s2 * 0.15 m: must be a torque, such as "
-                    "2 N m")));
+          HasSubstr("load.friction is missing")));
 }
 
 /// The gear's ratio and the firmware's multiply; never in silence.
