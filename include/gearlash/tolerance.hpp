@@ -171,7 +171,7 @@ struct ToleranceStudy {
   std::optional<Estimate> mean_amplitude{};              ///< rad, 0 where quiet
   std::vector<QuantileEstimate> amplitude{};             ///< rad, of all drives; 0 where quiet
   std::vector<QuantileEstimate> amplitude_of_hunting{};  ///< rad, of the drives that hunt
-  std::vector<QuantileEstimate> error{};  ///< rad, in the end, of all drives
+  std::vector<QuantileEstimate> error{};                 ///< rad, in the end, of all drives
   std::vector<QuantileEstimate> frequency{};             ///< Hz, of the drives with a cycle
   AmplitudeHistogram histogram{};                        ///< of amplitudes above 0
   std::size_t undecided = 0;           ///< samples of which it is not known whether they hunt

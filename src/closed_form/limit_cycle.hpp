@@ -43,7 +43,7 @@ struct LimitCycle {
   int traversals = 1;  ///< of the gap, after which it repeats (mirrored if they are odd)
   std::size_t impacts_per_period = 0;  ///< impacts counted one by one; a settling adds none more
   bool settles = false;                ///< bounces settle (or are plastic) before each separation
-  EnergyLost energy{};  ///< a period, units of K rad²
+  EnergyLost energy{};                 ///< a period, units of K rad²
   ServoState start;  ///< a state on the cycle, about reference 0: as the faces part forward
                      ///< (plastic contact), or just after an impact on the forward face
 };

@@ -267,13 +267,15 @@ std::vector<Parameter> feedback_and_sampling() {
             OtherForm{"sampling.frequency", Relation::reciprocal, &angular_frequency, turn},
             OtherForm{"sampling.rate", Relation::reciprocal, &angular_frequency, turn},
             OtherForm{"actuator.timestep"}, UsualRange{1e-5, 0.1}),
-      entry("sampling.position_period",
-            only_if<may_have_two_rates, in_sampling<&Sampling::position_period>>,
-            "time between two samples of a cascade's position controller, a whole multiple of the "
-            "period; none: the period",
-            unit<time>, positive,
-            OtherForm{"sampling.position_frequency", Relation::reciprocal, &angular_frequency, turn},
-            OtherForm{"sampling.position_rate", Relation::reciprocal, &angular_frequency, turn}, UsualRange{1e-5, 0.1}),
+      entry(
+          "sampling.position_period",
+          only_if<may_have_two_rates, in_sampling<&Sampling::position_period>>,
+          "time between two samples of a cascade's position controller, a whole multiple of the "
+          "period; none: the period",
+          unit<time>, positive,
+          OtherForm{"sampling.position_frequency", Relation::reciprocal, &angular_frequency, turn},
+          OtherForm{"sampling.position_rate", Relation::reciprocal, &angular_frequency, turn},
+          UsualRange{1e-5, 0.1}),
       entry("sampling.delay", in_sampling<&Sampling::delay>, "time from reading to output",
             unit<time>, not_negative, UsualRange{1e-6, 0.1}),
       entry("sampling.method", in_sampling<&Sampling::method>,

@@ -21,8 +21,8 @@ struct QuantityEntry {
   std::string_view older_name{};  ///< also accepted
 };
 
-/// Of the starts of a search, those with the smallest displacement of both shafts, on every side and
-/// face: Quantity::error is that of their ends.
+/// Of the starts of a search, those with the smallest displacement of both shafts, on every side
+/// and face: Quantity::error is that of their ends.
 std::vector<std::size_t> smallest_starts(const SearchRecord& search);
 
 const QuantityEntry& entry_of(Quantity quantity) noexcept;

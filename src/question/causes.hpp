@@ -25,8 +25,8 @@ std::optional<Drive> without(const Drive& drive, Cause cause);
 std::vector<Without> without_causes(const Drive& drive, const Analysis& analysis,
                                     const Wanted& wanted, Progress& progress);
 
-/// Where a start of the search runs away, and does not without integral action: by its name and with
-/// its cure. By Answer::without.
+/// Where a start of the search runs away, and does not without integral action: by its name and
+/// with its cure. By Answer::without.
 std::optional<Note> note_on_wind_up(const Drive& drive, const Analysis& analysis,
                                     Progress& progress);
 

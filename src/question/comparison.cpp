@@ -64,19 +64,18 @@ StepResponse response_of(const drive::ReducedDrive& drive, double step, double b
   return response;
 }
 
-ComparedDrive compared(const NamedDrive& one, double step, double band, const ComparisonOptions& options,
-                       Progress& progress) {
+ComparedDrive compared(const NamedDrive& one, double step, double band,
+                       const ComparisonOptions& options, Progress& progress) {
   const drive::ReducedDrive reduced = reduce_settled(one.drive);
-  ComparedDrive found{.name = one.name,
-                      .drive = one.drive,
-                      .answer = analyse(one.drive,
-                                        {.ceiling = true,
-                                         .loop = true,
-                                         .causes = true,
-                                         .motion_bytes = options.motion_bytes},
-                                        progress),
-                      .encoder_step = reduced.sensing.resolution,
-                      .stiffness = stiffness_of(one.drive)};
+  ComparedDrive found{
+      .name = one.name,
+      .drive = one.drive,
+      .answer = analyse(
+          one.drive,
+          {.ceiling = true, .loop = true, .causes = true, .motion_bytes = options.motion_bytes},
+          progress),
+      .encoder_step = reduced.sensing.resolution,
+      .stiffness = stiffness_of(one.drive)};
   const bool is_unstable = found.answer->loop && !found.answer->loop->is_stable;
   if (!is_unstable && faults(reduced).empty()) {
     found.answer->step = response_of(reduced, step, band, options.until, progress);

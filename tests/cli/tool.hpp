@@ -72,10 +72,11 @@ inline std::string tool_path() {
 inline Outcome run_shell(const std::string& line) {
   const Scratch scratch;
   std::ofstream(scratch / "line") << "GEARLASH=" << quoted(tool_path()) << "\n" << line << "\n";
-  const std::string command =
-      "cd " + quoted(GEARLASH_SOURCE_DIRECTORY) + " && LC_ALL=C.UTF-8 TERM=dumb env -u COLUMNS bash " +
-      quoted((scratch / "line").string()) + " >" + quoted((scratch / "out").string()) + " 2>" +
-      quoted((scratch / "err").string()) + " </dev/null";
+  const std::string command = "cd " + quoted(GEARLASH_SOURCE_DIRECTORY) +
+                              " && LC_ALL=C.UTF-8 TERM=dumb env -u COLUMNS bash " +
+                              quoted((scratch / "line").string()) + " >" +
+                              quoted((scratch / "out").string()) + " 2>" +
+                              quoted((scratch / "err").string()) + " </dev/null";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
           file_text(scratch / "out"), file_text(scratch / "err")};

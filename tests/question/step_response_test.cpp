@@ -27,7 +27,8 @@ TEST(OracleStepResponse, IsThatOfASecondOrderSystem) {
   constexpr double damping = 0.3;
   const double w = std::sqrt(1.0 - damping * damping);
   for (const double step : {1.0, -2.5}) {
-    const StepResponse response = step_response(second_order(damping), step, 0.05 * std::abs(step), 40.0);
+    const StepResponse response =
+        step_response(second_order(damping), step, 0.05 * std::abs(step), 40.0);
     ASSERT_TRUE(response.is_whole);
     EXPECT_NEAR(response.overshoot.value(), std::exp(-damping * std::numbers::pi / w), 1e-9);
     const auto position = [&](double t) {

@@ -66,8 +66,8 @@ std::vector<double> upward_passings(const hybrid::Trajectory& motion, const Watc
 /// like a cosine.
 std::vector<double> upward_passings(const std::vector<Sample>& extremes, double level);
 
-/// The size that a value exceeds for a share of its time. Between two samples it is taken to go like
-/// a cosine from turn to turn. Precondition: more than one sample, none of its turns missing.
+/// The size that a value exceeds for a share of its time. Between two samples it is taken to go
+/// like a cosine from turn to turn. Precondition: more than one sample, none of its turns missing.
 double size_exceeded_for(double share, const std::vector<Sample>& samples);
 
 /// Compares swings from one extreme to the next with those some swings later. Returns the least

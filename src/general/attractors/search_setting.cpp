@@ -90,9 +90,8 @@ void look(SearchSetting& setting) {
     error.normal = error.normal.cwiseProduct(scale) - setting.load.value.normal;
     error.offset -= middle_of(setting.drive.reference);
     // The speed of a signal is by its own numbers alone, which every mode moves alike.
-    AffineForm speed{setting.built.system.mode(0).flow.matrix.transpose() *
-                         setting.built.reference.normal,
-                     0.0};
+    AffineForm speed{
+        setting.built.system.mode(0).flow.matrix.transpose() * setting.built.reference.normal, 0.0};
     speed.normal = speed.normal.cwiseProduct(scale) - setting.load.speed.normal;
     setting.error = watched(system, std::move(error), std::move(speed));
   }

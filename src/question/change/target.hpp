@@ -21,8 +21,8 @@ bool is_missed(const Target& target, const Answer& answer);
 /// did not finish, or the motion does not repeat.
 bool is_known(const Target& target, const Answer& answer);
 
-/// Whether the target limits the load's amplitude, and nothing of its error, and an error in the end
-/// is larger than it permits: met, and yet farther off than its reader may believe.
+/// Whether the target limits the load's amplitude, and nothing of its error, and an error in the
+/// end is larger than it permits: met, and yet farther off than its reader may believe.
 bool hides_error(const Target& target, double error);
 
 /// ln(value/limit) of the limit closest to violation, or most violated. Except for rounding it is
@@ -40,9 +40,9 @@ Judgement judge(const Target& target, const AnswerBounds& bounds);
 /// Whether a drive with backlash and this growth at rest misses the target, whatever its cycles.
 bool is_ruled_out(const Target& target, double growth_at_rest);
 
-/// What analyse() must compute for the target to be judged. Whether a drive hunts or runs away is known from its starts alone. The
-/// largest stable cycle now and then is found only where what lies between two starts is searched:
-/// limits of motion ask for that too.
+/// What analyse() must compute for the target to be judged. Whether a drive hunts or runs away is
+/// known from its starts alone. The largest stable cycle now and then is found only where what lies
+/// between two starts is searched: limits of motion ask for that too.
 Wanted wanted_for(const Target& target);
 
 /// A target in two parts, which together are the target.

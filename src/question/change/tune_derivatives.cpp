@@ -139,8 +139,7 @@ class UnitSlopes {
       return derivatives(unit_, quantities, paths);
     }
     if (asks_for_rest(task_.target)) return std::nullopt;
-    const Analysis analysis =
-        analyse_in_full(unit_, wanted_for(task_.target), progress);
+    const Analysis analysis = analyse_in_full(unit_, wanted_for(task_.target), progress);
     const bool is_whole =
         analysis.answer.irregular.empty() && analysis.search && analysis.search->is_complete;
     if (!is_whole) return std::nullopt;

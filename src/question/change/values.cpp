@@ -411,8 +411,8 @@ FeasibleValues values_of_number(const Drive& drive, const Axis& axis, const Targ
     closed.present = found.present;
     found = std::move(closed);
   } else {
-    at_closest = searched_values(drives_along(axis, drive), first, wanted_for(first), found,
-                                 searching);
+    at_closest =
+        searched_values(drives_along(axis, drive), first, wanted_for(first), found, searching);
   }
   if (!is_empty(others)) {
     at_closest.reset();
@@ -507,8 +507,8 @@ FeasibleValues values(const Drive& drive, const Axis& axis, const Target& target
   std::sort(found.grid.begin(), found.grid.end());
   if (!parameter_of(axis, drive)->choices.empty()) {
     std::erase_if(found.grid, [&](double word) { return asks_for_more(axis, word, drive); });
-    at_closest = searched_words(drives_along(axis, drive), target, wanted_for(target), found,
-                                progress);
+    at_closest =
+        searched_words(drives_along(axis, drive), target, wanted_for(target), found, progress);
     return found;
   }
   cut_to_sound_drives(axis, drive, found);

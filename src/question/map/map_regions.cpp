@@ -163,8 +163,7 @@ PlaceKind kind_of(const Target& target, const Answer& answer) {
   return is_met(target, answer) ? PlaceKind::met : PlaceKind::missed;
 }
 
-AskedOfRows asked_for_kinds(const std::optional<Target>& target,
-                            std::span<PlaceKind> kinds) {
+AskedOfRows asked_for_kinds(const std::optional<Target>& target, std::span<PlaceKind> kinds) {
   AskedOfRows asked{.take = [&target, kinds](std::size_t row, const Answer* answer) {
     if (answer == nullptr) return;
     kinds[row] = target ? kind_of(*target, *answer) : kind_of(answer->verdict);

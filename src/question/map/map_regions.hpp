@@ -32,8 +32,7 @@ std::string_view name_of(PlaceKind kind);
 
 /// What must be asked of a family's rows for their kinds: of motion, or by a target. Answers are
 /// judged into `kinds`, one for each row; both must outlive the question.
-AskedOfRows asked_for_kinds(const std::optional<Target>& target,
-                            std::span<PlaceKind> kinds);
+AskedOfRows asked_for_kinds(const std::optional<Target>& target, std::span<PlaceKind> kinds);
 
 struct MapRegion {
   PlaceKind kind{};

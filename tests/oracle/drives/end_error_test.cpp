@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "drive_score.hpp"
 #include "ending.hpp"
 #include "following.hpp"
 #include "gearlash/analyse.hpp"
@@ -73,7 +74,7 @@ void compare_motions(const Drive& drive, const Answer& answer, const std::string
       ++all.cycles;
   }
   for (std::size_t i = 0; i < answer.irregular.size(); ++i) {
-    constexpr double irregular = 0.05;
+    const double irregular = ScoreOptions{}.irregular_share;  // its extremes scatter
     if (answer.irregular[i].is_motor_alone) continue;  // its load may stand anywhere in the gap
     const IrregularMotion& motion = answer.irregular[i];
     if (compare("irregular", i, motion.amplitude, motion.error, irregular)) ++all.irregular;
