@@ -4,7 +4,7 @@
 >>> drive = gearlash.Drive.normal_form(damping=0.19, inertia_ratio=2, friction_ratio=0.1,
 ...                                    backlash=0.3)
 >>> print(gearlash.analyse(drive).headline)
-hunts: ±0.242 rad (13.8°), period 6.456 / ω_n
+hunts: ±0.242 rad, period 6.456 / ω_n (proved)
 
 All numbers are in SI. Functions that take long release the interpreter's lock, use all cores, take
 ``progress=`` and are stopped by Ctrl-C. Results are the same to the bit as the tool's.

@@ -195,6 +195,7 @@ std::string causes_text(const AnswerReport& report) {
   TextRows rows;
   std::vector<std::string> needed;
   for (const Without& one : answer.without) {
+    if (one.verdict == Verdict::undecided) continue;
     const std::string name = "without " + with_article(one.cause);
     const std::string end = is_at_rest(one) ? "comes to rest" : name_of(one.verdict);
     rows.push_back({name, end,
