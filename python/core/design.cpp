@@ -67,8 +67,8 @@ py::object study_of_samples(py::handle sampling, py::handle questions,
 }  // namespace
 
 void add_design(py::module_& module) {
-  PYBIND11_NUMPY_DTYPE(detail::SampleResult, growth_at_rest, amplitude, frequency, verdict, meets,
-                       refused);
+  PYBIND11_NUMPY_DTYPE(detail::SampleResult, growth_at_rest, amplitude, frequency, error, verdict,
+                       meets, refused);
   define(
       module, "target",
       [](const std::string& text, const Drive& drive) { return parse_target(text, drive); },
