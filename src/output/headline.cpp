@@ -55,13 +55,21 @@ struct Swing {
   bool is_of_motor_alone = false;
   bool repeats = true;
   std::size_t starts = 0;
+  const Cycle* cycle = nullptr;  ///< nullptr of an irregular motion
 
   double extent() const { return std::max(load, motor); }
 };
 
 Swing swing_of(const Cycle& cycle) {
-  return {cycle.amplitude,     cycle.motor_amplitude,    cycle.error, cycle.period,
-          cycle.encoder_steps, is_of_motor_alone(cycle), true,        cycle.starts};
+  return {cycle.amplitude,
+          cycle.motor_amplitude,
+          cycle.error,
+          cycle.period,
+          cycle.encoder_steps,
+          is_of_motor_alone(cycle),
+          true,
+          cycle.starts,
+          &cycle};
 }
 
 Swing swing_of(const IrregularMotion& motion) {
@@ -249,18 +257,8 @@ std::string certainty_clause(const Answer& answer) {
 }  // namespace
 
 const Cycle* first_cycle(const Answer& answer) {
-  const Cycle* largest = nullptr;
-  bool is_irregular = false;
-  if (answer.search) {
-    for (const std::size_t i : smallest_starts(*answer.search)) {
-      const StartOutcome& start = answer.search->starts[i];
-      if (start.end == "irregular") is_irregular = true;
-      if (start.end != "cycle" || !start.which) continue;
-      const Cycle& cycle = answer.cycles[*start.which];
-      if (largest == nullptr || cycle.amplitude > largest->amplitude) largest = &cycle;
-    }
-  }
-  return largest != nullptr || is_irregular ? largest : answer.largest_stable();
+  const std::optional<Swing> swing = first_swing(answer);
+  return swing ? swing->cycle : nullptr;
 }
 
 std::string headline(const AnswerReport& report) {
