@@ -149,8 +149,11 @@ Axis read_axis(const AxisText& text, const Drive& drive, std::string* left_out) 
     if (is_word || (parts.size() != 3 && !is_logarithmic)) {
       refuse(text.field, text.name + "=" + text.values, axis_forms);
     }
-    axis = spaced_axis(text.field, axis.path, value_of(parts[0]), value_of(parts[1]),
-                       read_count(text.field, parts[2]),
+    // One after the other: compilers evaluate arguments in orders of their own.
+    const double from = value_of(parts[0]);
+    const double to = value_of(parts[1]);
+    const std::size_t count = read_count(text.field, parts[2]);
+    axis = spaced_axis(text.field, axis.path, from, to, count,
                        is_logarithmic ? Spacing::logarithmic : Spacing::linear);
   }
   const std::string cut = left_out != nullptr ? cut_to_permitted(axis, drive) : "";

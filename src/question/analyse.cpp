@@ -361,9 +361,8 @@ void add_figures(const SoundDrive& of, const Wanted& wanted, Answer& answer, Pro
   if (drive.backlash == 0.0) with_gap.backlash = 1.0;
   if (wanted.loop && faults(with_gap).empty()) answer.loop = drive::loop_figures(with_gap);
   if (wanted.step && faults(drive).empty()) {
-    answer.step =
-        drive::step_response(drive, drive::step_of(of.given()), drive::band_of(of.given(), drive),
-                             drive::usual_step_time(drive), progress);
+    answer.step = drive::step_response_to_end(drive, drive::step_of(of.given()),
+                                              drive::band_of(of.given(), drive), progress);
   }
 }
 

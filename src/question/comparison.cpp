@@ -50,20 +50,6 @@ std::optional<double> stiffness_of(const Drive& given) {
       drive.controller.law);
 }
 
-/// Followed on where the load is still on its way, unless a time was given.
-StepResponse response_of(const drive::ReducedDrive& drive, double step, double band,
-                         const std::optional<double>& until, Progress& progress) {
-  constexpr double longest = 64.0;
-  const double usual = drive::usual_step_time(drive);
-  StepResponse response = drive::step_response(drive, step, band, until.value_or(usual), progress);
-  for (double times = 2.0; times <= longest; times *= 2.0) {
-    const bool stands = response.ripple <= 1e-6 * std::abs(step);
-    if (until || response.rise_time || stands || !response.is_whole) break;
-    response = drive::step_response(drive, step, band, times * usual, progress);
-  }
-  return response;
-}
-
 ComparedDrive compared(const NamedDrive& one, double step, double band,
                        const ComparisonOptions& options, Progress& progress) {
   const drive::ReducedDrive reduced = reduce_settled(one.drive);
@@ -78,7 +64,9 @@ ComparedDrive compared(const NamedDrive& one, double step, double band,
       .stiffness = stiffness_of(one.drive)};
   const bool is_unstable = found.answer->loop && !found.answer->loop->is_stable;
   if (!is_unstable && faults(reduced).empty()) {
-    found.answer->step = response_of(reduced, step, band, options.until, progress);
+    found.answer->step = options.until
+                             ? drive::step_response(reduced, step, band, *options.until, progress)
+                             : drive::step_response_to_end(reduced, step, band, progress);
   }
   return found;
 }

@@ -144,4 +144,22 @@ StepResponse step_response(const ReducedDrive& drive, double step, double band, 
   return response;
 }
 
+StepResponse step_response_to_end(const ReducedDrive& drive, double step, double band,
+                                  Progress& progress) {
+  constexpr double longest = 64.0;
+  constexpr double still = 1e-6;   // of the step: the load stands
+  constexpr double hardly = 1e-2;  // of what is left of the way
+  const double usual = usual_step_time(drive);
+  StepResponse response = step_response(drive, step, band, usual, progress);
+  for (double times = 2.0; times <= longest && response.is_whole; times *= 2.0) {
+    const double left = std::abs(response.final_error);
+    const bool has_arrived = response.rise_time && left <= band;
+    if (has_arrived || response.ripple <= still * std::abs(step)) break;
+    response = step_response(drive, step, band, times * usual, progress);
+    const double nearer = left - std::abs(response.final_error);
+    if (nearer <= (response.rise_time ? hardly * left : 0.0)) break;
+  }
+  return response;
+}
+
 }  // namespace gearlash::drive

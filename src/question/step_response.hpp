@@ -20,4 +20,9 @@ double usual_step_time(const ReducedDrive& drive);
 StepResponse step_response(const ReducedDrive& drive, double step, double band, double until,
                            Progress& progress = no_progress());
 
+/// The same, followed for usual_step_time(), and up to 64 times as long while the load is still on
+/// its way: a slow integral, say, has yet to take away what is left.
+StepResponse step_response_to_end(const ReducedDrive& drive, double step, double band,
+                                  Progress& progress);
+
 }  // namespace gearlash::drive

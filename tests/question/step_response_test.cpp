@@ -56,6 +56,19 @@ TEST(OracleStepResponse, IsThatOfASecondOrderSystem) {
   }
 }
 
+/// A constant torque pushes the load back by half the step, which a slow integral takes away.
+TEST(StepResponse, IsFollowedUntilTheLoadHasArrived) {
+  ReducedDrive drive = second_order(0.5);
+  drive.controller = at_load(PID{.terms = PIDTerms::PID, .proportional = 1.0, .integral = 2e-3});
+  drive.load_torque = -0.5;
+  const double usual = usual_step_time(drive);
+  ASSERT_FALSE(step_response(drive, 1.0, 0.01, usual).settling_time);
+  const StepResponse response = step_response_to_end(drive, 1.0, 0.01, no_progress());
+  // 0.5 exp(−0.002 t) = 0.01, but for the short beginning.
+  EXPECT_NEAR(response.settling_time.value(), 500.0 * std::log(50.0), 10.0);
+  EXPECT_LT(std::abs(response.final_error), 0.01);
+}
+
 TEST(StepResponse, SaysWhatDoesNotComeAbout) {
   ReducedDrive drive = second_order(0.3);
   drive.motor.friction.coulomb = drive.motor.friction.breakaway = 2.0;  // more than the step asks
