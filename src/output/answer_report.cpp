@@ -307,11 +307,38 @@ std::string short_ceiling_text(const AnswerReport& report) {
 // ---- notes --------------------------------------------------------------------------------------
 
 /// Hints at results that further options add.
-std::string offer_text(const AnswerReport& report, Detail detail) {
-  const std::string text =
-      listed(std::array{detail == Detail::all ? "" : "--verbose", report.margin ? "" : "--margins",
-                        report.sensitivity ? "" : "--sensitivities"});
+std::string offer_text(const AnswerReport& report, Detail detail, const std::string& left_out) {
+  const std::string verbose =
+      "--verbose" + (left_out.empty() ? "" : " (with " + left_out + ", left out here)");
+  const std::string text = listed(std::array{
+      detail == Detail::all ? "" : verbose, std::string(report.margin ? "" : "--margins"),
+      std::string(report.sensitivity ? "" : "--sensitivities")});
   return text.empty() ? "" : "More: " + text + ".\n";
+}
+
+/// A part of a report; it is left out of a report that is too long if it has a name.
+struct ReportPart {
+  std::string text;
+  std::string name{};
+};
+
+constexpr std::ptrdiff_t most_lines = 40;  // of a report of Detail::usual
+
+std::ptrdiff_t lines_of(const std::string& text) { return std::ranges::count(text, '\n'); }
+
+/// Empties sections with names, one after the other, until the others and a last line keep the
+/// limit. Gives their names.
+std::string left_out_of(std::vector<ReportPart>& sections, std::ptrdiff_t limit) {
+  std::ptrdiff_t lines = 1;
+  for (const ReportPart& section : sections) lines += lines_of(section.text);
+  std::vector<std::string> names;
+  for (ReportPart& section : sections) {
+    if (section.name.empty() || section.text.empty() || lines <= limit) continue;
+    lines -= lines_of(section.text);
+    section.text.clear();
+    names.push_back(section.name);
+  }
+  return listed(names);
 }
 
 bool comes_first(const Note& note) { return note.code == "drifts-in-gap"; }
@@ -376,21 +403,29 @@ AnswerReport report_of(const Drive& drive, const Answer& answer) {
 
 std::string answer_text(const AnswerReport& report, Detail detail) {
   const bool is_short_report = detail == Detail::usual;
-  std::string text =
-      headline(report) + "\n" + notes_text(report, comes_first) + specification_text(report);
-  if (is_short_report) text += motion_table(report);
-  text += balance_text(report) + causes_text(report) + loop_text(report) + step_text(report);
-  text += is_short_report
-              ? short_rest_text(report) + others_text(report) + short_ceiling_text(report)
-              : details_text(report);
-  text += measured_text(report);
-  if (report.margin) text += "\n" + margin_text(report.drive, *report.margin, report.angle);
-  if (report.sensitivity) text += "\n" + sensitivity_text(*report.sensitivity);
-  text += notes_text(report, [&](const Note& note) {
-    return is_short_report ? is_short(note) : !comes_first(note);
-  });
-  text += further_paragraph(is_short_report ? short_meaning_text(report) : meaning_text(report));
-  return text + offer_text(report, detail);
+  std::string asked;
+  if (report.margin) asked += "\n" + margin_text(report.drive, *report.margin, report.angle);
+  if (report.sensitivity) asked += "\n" + sensitivity_text(*report.sensitivity);
+  std::vector<ReportPart> sections = {
+      {headline(report) + "\n" + notes_text(report, comes_first) + specification_text(report)},
+      {is_short_report ? motion_table(report) : ""},
+      {balance_text(report)},
+      {causes_text(report)},
+      {loop_text(report)},
+      {step_text(report), "the step"},
+      {is_short_report ? short_rest_text(report) : details_text(report)},
+      {is_short_report ? others_text(report) : "", "other motions"},
+      {is_short_report ? short_ceiling_text(report) : ""},
+      {measured_text(report) + asked},
+      {notes_text(
+          report,
+          [&](const Note& note) { return is_short_report ? is_short(note) : !comes_first(note); })},
+      {further_paragraph(is_short_report ? short_meaning_text(report) : meaning_text(report))}};
+  const std::string left_out =
+      is_short_report ? left_out_of(sections, most_lines + lines_of(asked)) : "";
+  std::string text;
+  for (const ReportPart& section : sections) text += section.text;
+  return text + offer_text(report, detail, left_out);
 }
 
 std::string headline(const Drive& drive, const Answer& answer) {

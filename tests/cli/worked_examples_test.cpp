@@ -87,6 +87,17 @@ TEST(WorkedExamples, OfTheProjectAreDecided) {
   EXPECT_GE(count, 8);
 }
 
+/// A report that would be longer leaves out the step or other motions and says so.
+TEST(WorkedExamples, OfProductsHaveReportsOfFortyLines) {
+  std::string texts;
+  for (const std::filesystem::path& file : files_in(root / "examples/products", ".toml")) {
+    const Outcome run = run_tool({"limit-cycle", file.string()});
+    EXPECT_LE(lines_of(run.out).size(), 40U) << file << "\n" << run.out;
+    texts += run.out;
+  }
+  EXPECT_NE(texts.find("--verbose (with the step, left out here)"), std::string::npos);
+}
+
 TEST(WorkedExamples, OnPagesAreDecided) {
   const Scratch scratch;
   int count = 0;
