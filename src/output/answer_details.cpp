@@ -19,7 +19,7 @@ std::string percent(double part, double whole) {
 
 TextRow amplitude_row(const AnswerReport& report, std::string name, double amplitude) {
   const AnswerUnits units(report);
-  const double backlash = backlash_of(report);
+  const double backlash = backlash_of(report.drive, report.answer);
   return {std::move(name), units.swing(amplitude),
           backlash == 0.0 ? "" : units.number(amplitude / backlash) + " of the backlash"};
 }

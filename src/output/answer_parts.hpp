@@ -31,7 +31,7 @@ struct AnswerUnits {
 };
 
 /// rad; that of the normal form of a drive that has one.
-double backlash_of(const AnswerReport& report);
+double backlash_of(const Drive& drive, const Answer& answer);
 
 /// The cycle that small displacements lead to, where a search has it; else the one seen in
 /// practice. nullptr where the headline's motion is no cycle.

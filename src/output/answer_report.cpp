@@ -94,7 +94,7 @@ std::string motion_table(const AnswerReport& report) {
   const Cycle* cycle = first_cycle(report.answer);
   if (cycle == nullptr || is_of_motor_alone(*cycle)) return "";  // the headline has it
   const AnswerUnits units = units_of(report);
-  const double backlash = backlash_of(report);
+  const double backlash = backlash_of(report.drive, report.answer);
   TextRows rows = {
       {"load", units.swing(cycle->amplitude),
        backlash > 0.0 ? units.number(cycle->amplitude / backlash) + " of the backlash" : ""},
@@ -244,7 +244,7 @@ std::string step_text(const AnswerReport& report) {
   const AnswerUnits units = units_of(report);
   const StepResponse& step = *answer.step;
   const std::string band = units.swing(step.band);
-  const bool is_within_gap = std::abs(step.step) < backlash_of(report);
+  const bool is_within_gap = std::abs(step.step) < backlash_of(report.drive, report.answer);
   constexpr double seen = 1e-6;
   const bool ends_off =
       !step.settling_time && std::abs(step.final_error) > seen * std::abs(step.step);
@@ -360,9 +360,9 @@ std::string notes_text(const AnswerReport& report, const std::function<bool(cons
 
 }  // namespace
 
-double backlash_of(const AnswerReport& report) {
-  if (report.answer.normal_form) return report.answer.normal_form->backlash;
-  return report.drive.servo ? report.drive.servo->backlash : report.drive.gearbox.backlash;
+double backlash_of(const Drive& drive, const Answer& answer) {
+  if (answer.normal_form) return answer.normal_form->backlash;
+  return drive.servo ? drive.servo->backlash : drive.gearbox.backlash;
 }
 
 std::string starts_text(std::size_t count) {

@@ -6,6 +6,7 @@
 
 #include "base/lists.hpp"
 #include "model/reduced_drive.hpp"
+#include "output/answer_parts.hpp"
 #include "output/answer_report.hpp"
 #include "output/columns.hpp"
 #include "output/parameter_text.hpp"
@@ -121,7 +122,13 @@ std::string step_text(const ComparisonReport& report) {
   const std::string names = names_where(report, [](const ComparedDrive& one) {
     return one.answer->step && !one.answer->step->is_whole;
   });
+  const std::string within = names_where(report, [](const ComparedDrive& one) {
+    return one.answer->step &&
+           std::abs(one.answer->step->step) < backlash_of(one.drive, *one.answer);
+  });
   return "All make " + step_text(*stepped->answer->step, report.angles.front()) +
+         (within.empty() ? ""
+                         : "; it is less than the gap of " + within + ": --step gives another") +
          (names.empty() ? "." : "; it could not be followed to its end: " + names + ".");
 }
 

@@ -155,7 +155,7 @@ std::string rest_clause(const AnswerReport& report) {
   const std::optional<double> error = report.answer.value(Quantity::static_error);
   constexpr double unseen = 1e-6;  // of the backlash: rounding
   const std::string where = !error ? ""
-                            : *error <= unseen * backlash_of(report)
+                            : *error <= unseen * backlash_of(report.drive, report.answer)
                                 ? " at the reference"
                                 : error_text(report, *error, 0.0);
   return "comes to rest" + where + minutes_text(report);
@@ -180,7 +180,9 @@ std::string small_clause(const AnswerReport& report) {
     case Verdict::runs_away_if_disturbed:
       break;
     case Verdict::cannot_hunt:
-      return "cannot hunt: " + (backlash_of(report) == 0.0 ? "no backlash" : rest_clause(report));
+      return "cannot hunt: " + (backlash_of(report.drive, report.answer) == 0.0
+                                    ? "no backlash"
+                                    : rest_clause(report));
     case Verdict::comes_to_rest:
       return rest_clause(report);
     case Verdict::runs_away:
