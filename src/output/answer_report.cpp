@@ -324,7 +324,9 @@ struct ReportPart {
 
 constexpr std::ptrdiff_t most_lines = 40;  // of a report of Detail::usual
 
-std::ptrdiff_t lines_of(const std::string& text) { return std::ranges::count(text, '\n'); }
+std::ptrdiff_t lines_of(const std::string& text) {
+  return std::count(text.begin(), text.end(), '\n');
+}
 
 /// Empties sections with names, one after the other, until the others and a last line keep the
 /// limit. Gives their names.

@@ -50,7 +50,7 @@ class Search {
     setting_ = motion ? scaled(unscaled_, *motion) : unscaled_;
     result_.coordinates = setting_.coordinates;
     result_.system = unscaled_.system.system();
-    result_.band = options.band > 0.0 ? options.band : usual_band();
+    result_.band = options.band;
     result_.swing_time = setting_.swing_time;
     result_.settling_time = setting_.settling_time;
     const double swings = options.swing_times * setting_.swing_time;
@@ -92,12 +92,6 @@ class Search {
   }
 
  private:
-  double usual_band() const {
-    const double step = setting_.drive.sensing.resolution;
-    constexpr double of_gap = 0.01;
-    return step > 0.0 ? 0.5 * step : of_gap * setting_.small_length;
-  }
-
   bool goes_on() {
     if (!result_.is_complete) return false;
     const auto all = static_cast<double>(starts_.size() + options_.most_edges);

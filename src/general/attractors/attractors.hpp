@@ -170,9 +170,8 @@ struct AttractorOptions {
   std::size_t most_edges = 3;         ///< sought between starts with different outcomes; 0: none,
                                       ///< and no thresholds
   hybrid::ShootingOptions shooting{.most_events = 2000};
-  /// rad: a start has come to rest when the load stays as near as this to its final position. 0:
-  /// half an encoder step, else 1 % of the gap.
-  double band = 0.0;
+  /// rad, > 0: a start has come to rest when the load stays as near as this to its final position.
+  double band = 1e-3;
   SearchTolerances tolerances{};
   SearchBudget budget{};
   StartTolerances chosen_starts{};  ///< used if `starts` is empty
