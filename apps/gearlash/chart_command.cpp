@@ -56,8 +56,7 @@ ExitStatus draw_branches(const GridTask& task, const std::vector<PlotFile>& plot
   Extras extras;
   if (work.is_stopped()) end_work(work, ExitStatus::undecided, "branches are missing");
   for (const PlotFile& plot : plots) {
-    extras.make(
-        [&] { write_plot(plot, bifurcation_plot(diagram, task.grid, task.quantity, task.angle)); });
+    extras.make([&] { write_plot(plot, bifurcation_plot(diagram, task.grid, task.quantity)); });
   }
   extras.print(fmt::format("{}: {} branches, {} borders\n", listed(plots, &PlotFile::file),
                            diagram.branches.size(), diagram.borders.size()));

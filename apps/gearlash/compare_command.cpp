@@ -74,7 +74,6 @@ void read_files(const CompareOptions& options, const std::vector<FileUse>& outpu
     const std::optional<WrittenDrive> written = resolve_drive(servo, outputs, faults);
     if (!written) continue;
     task.drives.push_back({names[i], written->drive});
-    task.report.angles.push_back(written->angle);
   }
 }
 
@@ -103,8 +102,7 @@ void read_values(const CompareOptions& options, const std::vector<FileUse>& outp
   faults.require_none();
   const std::string left_out = cut_to_sound(axis, drive);
   if (!left_out.empty()) report_lines(text.field + " " + axis.path + ": left out: " + left_out);
-  task.drives = drives_along(axis, drive, written->angle);
-  task.report.angles.assign(task.drives.size(), written->angle);
+  task.drives = named_along(axis, drive);
   task.report.axis = std::move(axis);
 }
 

@@ -72,7 +72,7 @@ Plot plot_of(const DescribeReport& report, const DescribeOptions& options) {
   return nyquist_plot({.title = drawn->title,
                        .analyses = loop_analyses(report.analyses, drawn->part),
                        .exact = drive::exact_motions(report.answer),
-                       .angle = report.angle,
+                       .angle = report.drive.angle_unit,
                        .is_normalized = report.is_normalized});
 }
 
@@ -88,8 +88,7 @@ ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
   LimitedWork work(limits);
   const Answer answer = analyse(written->drive, {.ceiling = true, .causes = true},
                                 TerminalProgress(work, "Searching").as_argument());
-  const DescribeReport report =
-      describe_report_of(written->drive, answer, written->angle, provenance);
+  const DescribeReport report = describe_report_of(written->drive, answer, provenance);
   const bool decided = answer.verdict != Verdict::undecided;
   return give({.text = options.format == "json" ? describe_json(report)
                                                 : with_bold_headline(describe_text(report)),

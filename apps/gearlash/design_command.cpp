@@ -83,7 +83,6 @@ GridTask read_region(const DesignOptions& options, const WrittenDrive& written,
   task.title = "Map";
   task.grid.drive = written.drive;
   task.quantity = read_quantity(options.quantity, faults);
-  task.angle = written.angle;
   task.has_boundary = true;
   task.target = target;
   task.target_text = options.target;
@@ -140,11 +139,8 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
   const Limits limits = read_limits(options.limits, faults);
   faults.require_none();
   LimitedWork work(limits);
-  DesignReport report{.drive = drive,
-                      .target_text = options.target,
-                      .target = target,
-                      .angle = written->angle,
-                      .provenance = provenance};
+  DesignReport report{
+      .drive = drive, .target_text = options.target, .target = target, .provenance = provenance};
   report.design = design(drive, axes, target, TerminalProgress(work, "Design").as_argument());
   const std::size_t known = count_of(
       report.design.parameters, [](const DesignedParameter& one) { return !one.values.stopped; });

@@ -231,7 +231,6 @@ GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption
       read_fixed_drive(options.servo, texts, texts.size() == typed_axes.size(), outputs, faults);
   const bool is_known = written || options.servo.file.empty();
   task.grid.proved = options.proved;
-  if (written) task.angle = written->angle;
   task.grid.drive = drive_of_axes(written ? written->drive : normal_form(0.5, 1.0, 0.5), texts);
   const auto read_one = [&](const AxisText& text, std::string* left_out) {
     return read_axis(text, task.grid.drive, left_out);

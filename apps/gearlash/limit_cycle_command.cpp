@@ -96,7 +96,7 @@ Result analysed(const WrittenDrive& written, const Provenance& provenance, Limit
                       .motion_bytes = bytes_of_motion(work.limits())};
   Result result{.analysis = analyse_in_full(written.drive, wanted,
                                             TerminalProgress(work, "Searching").as_argument())};
-  result.report = report_of(written.drive, result.analysis.answer, written.angle, provenance);
+  result.report = report_of(written.drive, result.analysis.answer, provenance);
   return result;
 }
 

@@ -235,14 +235,13 @@ void add_limit_cycle(Steps& steps, const Drive& drive) {
 /// from the numbers on its line, to five digits at least. `written` are the values as their author
 /// wrote them, by "section.key"; those that are missing are printed in SI alone.
 /// Precondition: a motor with a winding, proportional control, a closed form.
-std::string motor_procedure(const Drive& drive, const AngleUnit& angle,
-                            const std::map<std::string, std::string>& written) {
+std::string motor_procedure(const Drive& drive, const std::map<std::string, std::string>& written) {
   const Known known(drive);
   Steps steps;
   const std::string kind = std::visit(
       [&](const auto& motor) { return add_steps_of(motor, known, steps); }, drive.motor.kind);
   add_limit_cycle(steps, drive);
-  const AnswerReport report{.answer = analyse(drive, {.proofs = false}), .angle = angle};
+  const AnswerReport report{.drive = drive, .answer = analyse(drive, {.proofs = false})};
   return fmt::format(
       "Procedure for the {} (Appendix A of the thesis)\n\nData sheet\n{}\nSteps\n{}\n{}\n", kind,
       given_table(drive, written), steps.text(), headline(report));
@@ -269,7 +268,7 @@ ExitStatus run(const ServoOptions& options, const Provenance&) {
   // With --set the texts of the file no longer apply.
   std::map<std::string, std::string> texts;
   if (options.settings.empty()) texts = written->texts;
-  write_file("-", fitted_to_output(motor_procedure(written->drive, written->angle, texts)));
+  write_file("-", fitted_to_output(motor_procedure(written->drive, texts)));
   return ExitStatus::done;
 }
 

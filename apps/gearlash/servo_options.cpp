@@ -290,8 +290,8 @@ std::vector<Fault> named_as_typed(std::vector<Fault> faults, const ServoOptions&
 /// The normal form of a drive with the numbers changed by options. The natural frequency stays.
 WrittenDrive changed_normal_form(const WrittenDrive& written, const ServoOptions& options) {
   const std::optional<Drive> form = normal_form_of(written.drive);
-  WrittenDrive changed{
-      .drive = form.value_or(written.drive), .angle = written.angle, .tolerances = {}};
+  WrittenDrive changed{.drive = form.value_or(written.drive), .tolerances = {}};
+  changed.drive.angle_unit = written.drive.angle_unit;
   Faults faults;
   for (const TypedNumber& typed : typed_numbers(options)) {
     if (!is_ratio(typed.number)) continue;

@@ -106,8 +106,8 @@ double default_reference(const drive::ReducedDrive& reduced) {
 void set_reference(const std::optional<Measured>& typed, WrittenDrive& written) {
   if (typed) {
     written.drive.reference = typed->si;
-    if (written.angle == AngleUnit{}) {
-      written.angle = {.name = typed->unit, .radians = typed->unit_in_si};
+    if (written.drive.angle_unit.radians == 1.0) {
+      written.drive.angle_unit = angle_unit_of(*typed);
     }
   } else if (!written.drive.reference) {
     written.drive.reference = default_reference(reduce(written.drive));
@@ -181,7 +181,9 @@ Motion simulated(const SimulateRequest& task, const SimulateOptions& options, Li
 // ---- pictures -----------------------------------------------------------------------------------
 
 std::string title_of(const SimulateRequest& task) {
-  const auto angle = [&](double radians) { return angle_text(radians, task.written.angle, 4); };
+  const auto angle = [&](double radians) {
+    return angle_text(radians, task.written.drive.angle_unit, 4);
+  };
   const Signal reference = task.written.drive.reference.value_or(Signal{});
   const bool is_at_rest = task.start.load_position == 0.0 && task.start.load_speed == 0.0;
   if (!is_at_rest) {
@@ -201,7 +203,7 @@ struct KnownHunting {
 KnownHunting hunting_of(const WrittenDrive& written, LimitedWork& work) {
   const Answer answer =
       analyse(written.drive, {.proofs = false}, TerminalProgress(work, "Searching").as_argument());
-  return {headline(report_of(written.drive, answer, written.angle, {})),
+  return {headline(report_of(written.drive, answer, {})),
           answer.value(Quantity::period).value_or(0.0)};
 }
 
@@ -229,7 +231,6 @@ MotionPicture picture_of(const SimulateRequest& task, const Motion& motion,
           .subtitle = hunting.headline,
           .drive = task.written.drive,
           .motions = {{.motion = motion_to_draw(task, motion, options, hunting.period, work)}},
-          .angle = task.written.angle,
           .period = task.period,
           .hunting_period = hunting.period};
 }

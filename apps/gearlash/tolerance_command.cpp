@@ -37,7 +37,6 @@ struct ToleranceOptions : QuestionOptions {
 
 struct ToleranceRequest {
   TolerancedDrive drive;
-  AngleUnit angle;
   SamplePlan sampling;
   StudyQuestions questions;
   double error = 0.0;  ///< asked for; 0: none
@@ -121,7 +120,6 @@ ToleranceRequest read_task(const ToleranceOptions& options) {
   faults.require_none();
   task.drive = {is_searched ? written->drive : without_ended_signals(written->drive),
                 written->tolerances};
-  task.angle = written->angle;
   if (task.drive.varied.empty()) {
     refuse("DRIVE.toml", options.servo.file,
            "must have a number with a tolerance, such as \"0.61 oz in2 ± 10 %\"");
@@ -183,7 +181,6 @@ ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
   ToleranceReport report{.drive = task.drive,
                          .target_text = options.target,
                          .amplitude = task.questions.amplitude,
-                         .angle = task.angle,
                          .provenance = provenance};
   work_out(task, work, report);
   report.stopped = work.is_stopped();

@@ -88,7 +88,6 @@ TuneRequest read_request(const TuneOptions& options) {
       resolve_drive(options.servo, {{"--write", options.write}}, faults);
   if (!written) faults.require_none();
   const Drive& drive = written->drive;
-  report.angle = written->angle;
   task.series = {drive, written->tolerances};
   const auto names = options.parameters.empty() ? usual_gains(drive) : options.parameters;
   task.tuned = collect_axes("--parameters", names, drive, read_axis_to_tune, faults);
@@ -98,7 +97,7 @@ TuneRequest read_request(const TuneOptions& options) {
   report.target_text = options.target;
   if (options.target.empty()) {
     task.target = usual_target(drive);
-    report.target_text = text_of_usual(task.target, report.angle);
+    report.target_text = text_of_usual(task.target, written->drive.angle_unit);
   } else {
     task.target = collect_target(options.target, &drive, faults);
   }

@@ -183,6 +183,18 @@ struct NormalForm {
   bool operator==(const NormalForm&) const = default;
 };
 
+/// The author's unit of angles, which text and pictures of a drive have.
+struct AngleUnit {
+  std::string name = "rad";  ///< as written: "arcmin", "deg", "mrad", …
+  double radians = 1.0;      ///< the unit in radians, > 0
+
+  /// `angle` (rad) in this unit.
+  double from_radians(double angle) const { return angle / radians; }
+
+  /// Always, so that drives of equal numbers are equal: a unit changes no motion and no answer.
+  bool operator==(const AngleUnit&) const { return true; }
+};
+
 /// One drive. The same type is read from files, set by path, varied, analysed and written.
 struct Drive {
   std::optional<NormalForm> servo{};  ///< if given, it replaces motor, gearbox, load and controller
@@ -201,6 +213,7 @@ struct Drive {
   /// decimal, results of a computation. Proofs then hold for all numbers nearby. Else each stands
   /// for the shortest decimal that reads back as it. Readers set it where a drive has such numbers.
   bool is_rounded = false;
+  AngleUnit angle_unit{};  ///< readers of files set it to the unit of the backlash
 
   bool operator==(const Drive&) const = default;
 };

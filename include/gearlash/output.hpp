@@ -22,7 +22,8 @@ namespace gearlash {
 /// The output of `gearlash limit-cycle --format json`.
 [[nodiscard]] std::string to_json(const Drive& drive, const Answer& answer);
 
-/// The answer in one line: "hunts: ±0.0819 rad (4.69°) at 2.26 Hz".
+/// The answer in one line, as `gearlash limit-cycle` prints it, in the unit of angles of the drive:
+/// "hunts: ±1.79 arcmin at 1.95 Hz (found from 20 starts)".
 [[nodiscard]] std::string headline(const Drive& drive, const Answer& answer);
 
 /// The report in full, as `gearlash limit-cycle` prints it.

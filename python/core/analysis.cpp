@@ -44,11 +44,10 @@ py::object compared(const std::vector<std::pair<std::string, py::object>>& named
     report.axis = from_python<Axis>(axis, "axis");
     const Drive base = drives.front().drive;
     require_none(faults(Grid{.drive = base, .axes = {*report.axis}}, {report.axis->path}));
-    drives = drives_along(*report.axis, base, {});
+    drives = named_along(*report.axis, base);
   }
   const auto asked = from_python<std::vector<Quantity>>(quantities, "quantities");
   if (!asked.empty()) report.quantities = asked;
-  report.angles.resize(drives.size());
   return to_python(interruptible(progress, [&](Progress& reports) {
     report.drives = compare(drives, {.step = step, .until = until}, reports);
     return Written{comparison_json(report), comparison_text(report)};

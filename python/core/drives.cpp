@@ -23,12 +23,17 @@ void forget_files(Drive& drive) {
   }
 }
 
+/// `angle_unit` is kept where the text names no other one than rad.
 TolerancedDrive read(const std::string& text, const std::string& name, const std::string& folder,
                      const std::vector<std::pair<std::string, std::string>>& settings,
-                     bool is_of_program) {
+                     bool is_of_program, const std::string& angle_unit) {
   const auto setting_of = [](const auto& one) { return Setting{one.first, one.second}; };
   WrittenDrive written = parse_drive(text, name, folder, of_each(settings, setting_of),
                                      is_of_program ? BareNumbers::in_si : BareNumbers::refused);
+  if (written.drive.angle_unit.radians == 1.0 && angle_unit != "rad") {
+    written.drive.angle_unit =
+        angle_unit_of(read_measured("angle_unit", "1 " + angle_unit, dimensions::angle));
+  }
   forget_files(written.drive);
   return {std::move(written.drive), std::move(written.tolerances)};
 }
@@ -51,7 +56,7 @@ TolerancedDrive with_tolerances(const TolerancedDrive& drive, py::handle toleran
   const TolerancedDrive varied{
       drive.nominal, from_python<std::vector<ParameterTolerance>>(tolerances, "tolerances")};
   require_none(faults(varied));
-  return read(given_toml(varied), "", "", {}, true);
+  return read(given_toml(varied), "", "", {}, true, drive.nominal.angle_unit.name);
 }
 
 TolerancedDrive checked_normal_form(double damping, double inertia_ratio, double friction_ratio,
@@ -74,6 +79,8 @@ void add_drives(py::module_& module) {
       .def("parameters", [](const Bound& drive) { return to_python(parameters_of(drive.nominal)); })
       .def("to_toml", [](const Bound& drive) { return to_toml(drive); })
       .def("given_toml", [](const Bound& drive) { return given_toml(drive); })
+      .def_property_readonly("angle_unit",
+                             [](const Bound& drive) { return drive.nominal.angle_unit.name; })
       .def("with_numbers", with_numbers)
       .def("with_tolerances", with_tolerances)
       .def_property_readonly("tolerances",

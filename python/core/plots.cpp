@@ -14,9 +14,8 @@ namespace gearlash::python {
 namespace {
 
 MotionPicture picture_of(const Motion& motion, py::handle drive, const std::string& unit) {
-  const Measured one = read_measured("unit", "1 " + unit, dimensions::angle);
-  MotionPicture picture{.drive = drive_of(drive),
-                        .angle = {.name = one.unit, .radians = one.unit_in_si}};
+  MotionPicture picture{.drive = drive_of(drive)};
+  picture.drive.angle_unit = angle_unit_of(read_measured("unit", "1 " + unit, dimensions::angle));
   if (is_normalized(picture.drive)) picture.drive.servo->natural_frequency = 1.0;  // as in all SI
   picture.period = period_of_loop(picture.drive);
   picture.motions.push_back({.motion = motion});

@@ -63,7 +63,8 @@ class Drive:
     """A geared drive, each number at its own shaft.
 
     A drive never changes; :meth:`with_` gives another one. Drives compare equal if all their
-    numbers are the same, and can be pickled.
+    numbers are the same, and can be pickled. Text about a drive has the unit in which its backlash
+    was given; that changes no number and no comparison.
 
     Parameters
     ----------
@@ -153,7 +154,7 @@ class Drive:
         else:
             path = Path(source)
             text, name, folder = path.read_bytes(), str(path), str(path.parent)
-        return cls._of(core.read(text, name, folder, [], False))
+        return cls._of(core.read(text, name, folder, [], False, "rad"))
 
     @classmethod
     def normal_form(cls, damping: float, inertia_ratio: float, friction_ratio: float,
@@ -228,7 +229,7 @@ class Drive:
             return self._of(self._core.with_numbers(numbers))
         settings = [(path, "none" if value is None else _setting(value))
                     for path, value in given.items()]
-        return self._of(_read(self._core.given_toml(), settings))
+        return self._of(_read(self._core.given_toml(), settings, self._core.angle_unit))
 
     @property
     def tolerances(self) -> tuple[ParameterTolerance, ...]:
@@ -325,7 +326,7 @@ class Drive:
         return hash(self.to_toml())
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _unpickled, (self._core.given_toml(),)
+        return _unpickled, (self._core.given_toml(), self._core.angle_unit)
 
     def __repr__(self) -> str:
         sections = self.sections()
@@ -388,13 +389,13 @@ def _kind(drive: Drive, path: str) -> str:
     return next((info.kind for info in drive.parameters() if info.path == path), "number")
 
 
-def _read(text: str, settings: list[tuple[str, str]]) -> core.Drive:
+def _read(text: str, settings: list[tuple[str, str]], angle_unit: str = "rad") -> core.Drive:
     """Read text that a program made: places in it mean nothing to the caller."""
     try:
-        return core.read(text, "", "", settings, True)
+        return core.read(text, "", "", settings, True, angle_unit)
     except InvalidInput as error:
         raise InvalidInput(tuple(replace(fault, where="") for fault in error.faults)) from None
 
 
-def _unpickled(text: str) -> Drive:
-    return Drive._of(core.read(text, "", "", [], True))
+def _unpickled(text: str, angle_unit: str) -> Drive:
+    return Drive._of(core.read(text, "", "", [], True, angle_unit))

@@ -16,8 +16,7 @@ namespace gearlash {
 
 /// The contents of a drive file.
 struct WrittenDrive {
-  Drive drive;      ///< valid
-  AngleUnit angle;  ///< unit of the backlash in the file
+  Drive drive;  ///< valid
   /// Parameters with tolerances, in the order of the file; the drive holds their nominal values.
   std::vector<ParameterTolerance> tolerances;
   std::string text{};  ///< TOML, of parse_drive_by_form()

@@ -415,7 +415,7 @@ class DriveReader {
     const Measured value = gearlash::read_number_of(section, key.name, parameter, path, drive(),
                                                     wanted_text(parameter));
     if (parameter.path == "gearbox.backlash" || parameter.path == "servo.backlash") {
-      file_.angle = {.name = value.unit, .radians = value.unit_in_si};
+      drive().angle_unit = angle_unit_of(value);
     }
     return value.si;
   }

@@ -291,6 +291,10 @@ Measured read_measured(std::string_view field, std::string_view text, const Dime
   return {.si = *bare, .unit = std::string(expected.unit)};
 }
 
+AngleUnit angle_unit_of(const Measured& angle) {
+  return {.name = angle.unit, .radians = angle.unit_in_si};
+}
+
 std::string shown(std::string_view text, std::size_t limit) {
   if (trimmed(text).empty()) return "\"" + std::string(text.substr(0, limit)) + "\"";
   std::string result;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/fault.hpp"
+#include "gearlash/drive.hpp"
 #include "model/dimension.hpp"
 
 namespace gearlash {
@@ -71,6 +72,9 @@ std::uint64_t read_whole(std::string_view field, std::string_view text, std::uin
 /// read_quantity() do.
 Measured read_measured(std::string_view field, std::string_view text, const Dimension& expected);
 
+/// The unit of an angle as its author has it.
+AngleUnit angle_unit_of(const Measured& angle);
+
 /// The author's text, fit for one line of an error: control characters and invalid UTF-8 are
 /// escaped, empty or blank text is quoted, and text beyond `limit` characters becomes "…".
 std::string shown(std::string_view text, std::size_t limit = 60);
@@ -83,16 +87,5 @@ std::string_view trimmed(std::string_view text);
 
 /// The trimmed parts between separators, at least one.
 std::vector<std::string_view> split(std::string_view text, std::string_view separator);
-
-/// The author's unit of angles.
-struct AngleUnit {
-  std::string name = "rad";  ///< as written: "arcmin", "deg", "mrad", …
-  double radians = 1.0;      ///< the unit in radians, > 0
-
-  /// `angle` (rad) in this unit.
-  double from_radians(double angle) const { return angle / radians; }
-
-  bool operator==(const AngleUnit&) const = default;
-};
 
 }  // namespace gearlash

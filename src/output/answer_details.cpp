@@ -69,7 +69,8 @@ std::string cycle_text(const AnswerReport& report, const Cycle& cycle) {
   TextRows rows = {amplitude_row(report, "amplitude, load", cycle.amplitude)};
   const bool has_bounds = answer.bounds && answer.bounds->has_cycle;
   if (has_bounds) {
-    add_range(rows, units, answer.bounds->amplitude, report.angle.radians, report.angle.name);
+    add_range(rows, units, answer.bounds->amplitude, report.drive.angle_unit.radians,
+              report.drive.angle_unit.name);
   }
   rows.push_back(amplitude_row(report, "amplitude, motor", cycle.motor_amplitude));
   if (cycle.center != 0.0) {
@@ -193,8 +194,9 @@ std::string normal_form_table(const AnswerReport& report) {
   rows.push_back({"damping, ζ", units.number(form.damping)});
   rows.push_back({"inertia ratio, J_L/J_M", units.number(form.inertia_ratio)});
   rows.push_back({"friction ratio, F_L/(F_M+F_L)", units.number(form.friction_ratio)});
-  rows.push_back({"backlash, b", units.angle(form.backlash),
-                  report.angle.radians == 1.0 ? "" : units.number(form.backlash) + " rad"});
+  rows.push_back(
+      {"backlash, b", units.angle(form.backlash),
+       report.drive.angle_unit.radians == 1.0 ? "" : units.number(form.backlash) + " rad"});
   rows.push_back({"restitution, e", units.number(form.restitution)});
   const auto& growth = report.answer.growth_at_rest;
   rows.push_back({"growth at rest, μ₀", growth ? units.number(*growth) : "not known",

@@ -248,7 +248,7 @@ std::string mesh_torque_alone(const AnswerReport& report) {
 }  // namespace
 
 std::string lower_bound_text(double radians, const AnswerReport& report) {
-  const AngleUnit& unit = report.angle;
+  const AngleUnit& unit = report.drive.angle_unit;
   return significant(rounded_down(unit.from_radians(radians), usual_digits), usual_digits) + " " +
          unit.name;
 }
@@ -270,7 +270,7 @@ std::string ceiling_text(const AnswerReport& report) {
     return further_paragraph("No ceiling: " + ceiling.reason + ".") + mesh_torque_alone(report);
   }
   const auto angle = [&](double value) {
-    return swing_bound_text(value, report.angle, usual_digits);
+    return swing_bound_text(value, report.drive.angle_unit, usual_digits);
   };
   TextRows rows = {{"load", angle(*ceiling.load)}};
   if (ceiling.terms.size() > 1) {

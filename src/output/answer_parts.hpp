@@ -12,7 +12,9 @@ namespace gearlash {
 /// without a natural frequency.
 struct AnswerUnits {
   explicit AnswerUnits(const AnswerReport& report, int with_digits = 6)
-      : angle_unit(report.angle), is_normalized(report.is_normalized), digits(with_digits) {}
+      : angle_unit(report.drive.angle_unit),
+        is_normalized(report.is_normalized),
+        digits(with_digits) {}
 
   std::string number(double value) const { return significant(value, digits); }
   std::string angle(double radians) const { return angle_text(radians, angle_unit, digits); }

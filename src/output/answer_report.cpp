@@ -292,7 +292,7 @@ std::string short_ceiling_text(const AnswerReport& report) {
   const Ceiling& ceiling = *report.answer.ceiling;
   if (!ceiling.load) return further_paragraph("No proved ceiling: " + ceiling.reason + ".");
   const auto angle = [&](double value) {
-    return swing_bound_text(value, report.angle, usual_digits);
+    return swing_bound_text(value, report.drive.angle_unit, usual_digits);
   };
   std::string text = "Ceiling: in the end no motion is farther than " + angle(*ceiling.load) +
                      " from that without a gap" + below_limit_text(ceiling) + " (proved)";
@@ -384,11 +384,9 @@ bool is_of_motor_alone(const Cycle& cycle) {
   return cycle.amplitude <= unseen * cycle.motor_amplitude;
 }
 
-AnswerReport report_of(const Drive& drive, const Answer& answer, const AngleUnit& angle,
-                       const Provenance& provenance) {
+AnswerReport report_of(const Drive& drive, const Answer& answer, const Provenance& provenance) {
   return {.drive = drive,
           .answer = answer,
-          .angle = angle,
           .is_normalized = is_normalized(drive),
           .provenance = provenance};
 }
@@ -400,13 +398,13 @@ std::vector<ParameterFacts> AnswerReport::parameters() const {
 }
 
 AnswerReport report_of(const Drive& drive, const Answer& answer) {
-  return report_of(drive, answer, {}, {.command = "", .version = version});
+  return report_of(drive, answer, {.command = "", .version = version});
 }
 
 std::string answer_text(const AnswerReport& report, Detail detail) {
   const bool is_short_report = detail == Detail::usual;
   std::string asked;
-  if (report.margin) asked += "\n" + margin_text(report.drive, *report.margin, report.angle);
+  if (report.margin) asked += "\n" + margin_text(report.drive, *report.margin);
   if (report.sensitivity) asked += "\n" + sensitivity_text(*report.sensitivity);
   std::vector<ReportPart> sections = {
       {headline(report) + "\n" + notes_text(report, comes_first) + specification_text(report)},

@@ -34,9 +34,8 @@ struct MotionBesideMeasured {
 
 /// "gearlash/limit-cycle/3": what a drive ends in.
 struct AnswerReport {
-  Drive drive{};      ///< its parameters
-  Answer answer{};    ///< what it ends in
-  AngleUnit angle{};  ///< the author's, of text
+  Drive drive{};    ///< its parameters
+  Answer answer{};  ///< what it ends in
   /// The normal form without a natural frequency: text has times in units of 1/ω_n.
   bool is_normalized = false;
   Provenance provenance{};                    ///< how it was made
@@ -53,9 +52,8 @@ struct AnswerReport {
 };
 
 /// A report without margins and sensitivities.
-AnswerReport report_of(const Drive& drive, const Answer& answer, const AngleUnit& angle,
-                       const Provenance& provenance);
-/// The same in radians, made by this version.
+AnswerReport report_of(const Drive& drive, const Answer& answer, const Provenance& provenance);
+/// The same, made by this version.
 AnswerReport report_of(const Drive& drive, const Answer& answer);
 
 /// Whether the motor swings within the gap and the load stands still.

@@ -53,10 +53,9 @@ std::string combined_text(const HuntingMargin& margin) {
          listed(changes) + ".";
 }
 
-std::string undecided_text(const Drive& drive, const HuntingMargin& margin,
-                           const AngleUnit& angle) {
+std::string undecided_text(const Drive& drive, const HuntingMargin& margin) {
   const auto parts_of = [&](const ParameterMargin& one) {
-    const ParameterText text(drive, one.parameter, angle);
+    const ParameterText text(drive, one.parameter);
     const auto named = [&](const Bounds& part) { return one.parameter + " " + text.of(part); };
     return listed(one.undecided, named, "; ");
   };
@@ -65,8 +64,8 @@ std::string undecided_text(const Drive& drive, const HuntingMargin& margin,
 }
 
 /// What the search leaves open.
-std::string search_text(const Drive& drive, const HuntingMargin& margin, const AngleUnit& angle) {
-  SearchedGrids grids(drive, angle);
+std::string search_text(const Drive& drive, const HuntingMargin& margin) {
+  SearchedGrids grids(drive);
   for (const ParameterMargin& one : margin.parameters) grids.add(one);
   if (grids.text().empty()) return "";
   const std::string located = grids.located_text("Borders");
@@ -74,7 +73,7 @@ std::string search_text(const Drive& drive, const HuntingMargin& margin, const A
          "missed "
          "(" +
          grids.text() + ")." + (located.empty() ? "" : located + ".") +
-         undecided_text(drive, margin, angle);
+         undecided_text(drive, margin);
 }
 
 /// What a scan leaves open, where faces bounce.
@@ -117,10 +116,10 @@ std::vector<std::size_t> by_falling_effect(const Jacobian& sensitivity) {
   return order;
 }
 
-std::string margin_text(const Drive& drive, const HuntingMargin& margin, const AngleUnit& angle) {
+std::string margin_text(const Drive& drive, const HuntingMargin& margin) {
   TextRows rows = {{"parameter", "now", "down to", "up to"}};
   for (const ParameterMargin& one : margin.parameters) {
-    const ParameterText text(drive, one.parameter, angle);
+    const ParameterText text(drive, one.parameter);
     if (one.choices.empty() && !one.below && !one.above) continue;
     rows.push_back({one.parameter, text.of(one.present), border_text(text, one, one.below),
                     text.is_word()
@@ -139,7 +138,7 @@ std::string margin_text(const Drive& drive, const HuntingMargin& margin, const A
          (rows.size() == 1 ? nowhere : "\n" + table_text(rows)) +
          sentences(
              {combined_text(margin), is_closed ? overall_text(*margin.overall, margin.hunts) : "",
-              scanned_text(margin), search_text(drive, margin, angle),
+              scanned_text(margin), search_text(drive, margin),
               margin.stopped ? "The search was stopped: what it did not reach is left out." : ""});
 }
 

@@ -14,7 +14,7 @@ namespace gearlash {
 
 /// A table of each parameter's change until hunting stops or starts, the smallest combined change,
 /// and what a search leaves open.
-std::string margin_text(const Drive& drive, const HuntingMargin& margin, const AngleUnit& angle);
+std::string margin_text(const Drive& drive, const HuntingMargin& margin);
 /// Elasticities, the largest first; or one line that says why there are none.
 std::string sensitivity_text(const Jacobian& sensitivity);
 

@@ -18,14 +18,14 @@ constexpr char nothing[] = "–";
 
 AnswerReport answer_report_of(const ComparisonReport& report, std::size_t i) {
   const ComparedDrive& one = report.drives[i];
-  return report_of(one.drive, *one.answer, report.angles[i], report.provenance);
+  return report_of(one.drive, *one.answer, report.provenance);
 }
 
 /// Of a column of the table.
 DrawnUnit unit_shown(const ComparisonReport& report, Quantity quantity) {
   if (quantity == Quantity::phase_margin) return {"deg", std::numbers::pi / 180.0};
   if (quantity == Quantity::overshoot) return {"%", 0.01};
-  return drawn_unit(quantity, report.angles.front(), is_normalized(report));
+  return drawn_unit(quantity, report.drives.front().drive.angle_unit, is_normalized(report));
 }
 
 // ---- the table ----------------------------------------------------------------------------------
@@ -54,7 +54,7 @@ std::string stability_text(const ComparedDrive& one) {
 }
 
 TextRows rows_of(const ComparisonReport& report) {
-  const AngleUnit& angle = report.angles.front();
+  const AngleUnit& angle = report.drives.front().drive.angle_unit;
   TextRows rows = {{report.axis ? report.axis->path : "drive"}};
   add_all(rows.front(), of_each(report.drives, &ComparedDrive::name));
   rows.push_back(row_of(report, "certainty", [](const ComparedDrive& one) {
@@ -126,7 +126,7 @@ std::string step_text(const ComparisonReport& report) {
     return one.answer->step &&
            std::abs(one.answer->step->step) < backlash_of(one.drive, *one.answer);
   });
-  return "All make " + step_text(*stepped->answer->step, report.angles.front()) +
+  return "All make " + step_text(*stepped->answer->step, report.drives.front().drive.angle_unit) +
          (within.empty() ? ""
                          : "; it is less than the gap of " + within + ": --step gives another") +
          (names.empty() ? "." : "; it could not be followed to its end: " + names + ".");
@@ -186,11 +186,11 @@ std::optional<double> step_of(const ComparisonReport& report) {
   return std::nullopt;
 }
 
-std::vector<NamedDrive> drives_along(const Axis& axis, const Drive& drive, const AngleUnit& angle) {
+std::vector<NamedDrive> named_along(const Axis& axis, const Drive& drive) {
   return of_each(axis.values, [&](double value) {
     NamedDrive one{.drive = drive};
     set_on(axis, one.drive, value);
-    one.name = ParameterText(one.drive, axis.path, angle).of(value);
+    one.name = ParameterText(one.drive, axis.path).of(value);
     return one;
   });
 }

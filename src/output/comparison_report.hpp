@@ -19,9 +19,8 @@ struct ComparisonReport {
   std::vector<ComparedDrive> drives{};  ///< at least one
   /// What the table has; each answer has all.
   std::vector<Quantity> quantities = usual_quantities_compared();
-  std::optional<Axis> axis{};       ///< of values of one parameter, one for each drive
-  std::vector<AngleUnit> angles{};  ///< of each drive; the table has the first one's
-  Provenance provenance{};          ///< how it was made
+  std::optional<Axis> axis{};  ///< of values of one parameter, one for each drive
+  Provenance provenance{};     ///< how it was made
 };
 
 /// Whether no drive has a time scale: times are in 1/ω_n.
@@ -30,7 +29,7 @@ bool is_normalized(const ComparisonReport& report);
 std::optional<double> step_of(const ComparisonReport& report);
 
 /// The drives with each value of an axis, named by it: "load", "12 arcmin".
-std::vector<NamedDrive> drives_along(const Axis& axis, const Drive& drive, const AngleUnit& angle);
+std::vector<NamedDrive> named_along(const Axis& axis, const Drive& drive);
 
 /// The headline of each drive, as limit-cycle has it, on a line of its own after the name.
 std::string comparison_headlines(const ComparisonReport& report);

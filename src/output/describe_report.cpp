@@ -29,8 +29,8 @@ std::string with_capital(std::string text) {
 
 TextRow motion_row(const std::string& name, const ExactMotion& motion,
                    const DescribeReport& report) {
-  return {name, swing_text(motion.amplitude, report.angle, usual_digits),
-          "±" + angle_text(motion.motor_amplitude, report.angle, usual_digits),
+  return {name, swing_text(motion.amplitude, report.drive.angle_unit, usual_digits),
+          "±" + angle_text(motion.motor_amplitude, report.drive.angle_unit, usual_digits),
           time_text(motion.period, report.is_normalized, usual_digits),
           frequency_text(motion.period, report.is_normalized, usual_digits)};
 }
@@ -142,7 +142,7 @@ std::string analysis_text(const DescribingAnalysis& analysis, const DescribeRepo
 
 }  // namespace
 
-DescribeReport describe_report_of(const Drive& drive, const Answer& answer, const AngleUnit& angle,
+DescribeReport describe_report_of(const Drive& drive, const Answer& answer,
                                   const Provenance& provenance) {
   const drive::ReducedDrive reduced = reduce(drive);
   std::vector<DescribingAnalysis> analyses = drive::describing_analyses(reduced);
@@ -151,13 +151,12 @@ DescribeReport describe_report_of(const Drive& drive, const Answer& answer, cons
           .drive = drive,
           .answer = answer,
           .backlash = reduced.backlash,
-          .angle = angle,
           .is_normalized = is_normalized(drive),
           .provenance = provenance};
 }
 
 std::string describe_text(const DescribeReport& report) {
-  AnswerReport exact = report_of(report.drive, report.answer, report.angle, {});
+  AnswerReport exact = report_of(report.drive, report.answer, {});
   exact.is_normalized = report.is_normalized;
   std::string text = headline(exact) + "\n";
   for (const DescribingAnalysis& analysis : report.analyses) {

@@ -17,14 +17,13 @@ struct DescribeReport {
   Drive drive{};                                      ///< its parameters
   Answer answer{};             ///< exact; not predicted if a sine drives the drive
   double backlash = 0.0;       ///< rad; predictions too small beside it are left out
-  AngleUnit angle{};           ///< unit of the author's backlash
   bool is_normalized = false;  ///< text has times in units of 1/ω_n
   Provenance provenance{};     ///< how it was made
 };
 
 /// The describing functions of the drive beside its exact answer.
 DescribeReport describe_report_of(const Drive& drive, const Answer& answer,
-                                  const AngleUnit& angle = {}, const Provenance& provenance = {});
+                                  const Provenance& provenance = {});
 
 /// The headline of the exact answer. Then for each analysis a table of predicted and exact values
 /// with the error in per cent, the loop and the assumptions. Ends with a newline.

@@ -43,7 +43,7 @@ TextRow costs_text(const DesignReport& report, const DriveWithValue& one) {
   const auto time = [](const std::optional<double>& seconds) {
     return seconds ? significant(*seconds, few_digits) + " s" : "";
   };
-  return {error ? angle_text(*error, report.angle, few_digits) : "",
+  return {error ? angle_text(*error, report.drive.angle_unit, few_digits) : "",
           time(response.rise_time),
           response.overshoot ? fmt::format("{:.1f} %", 100.0 * *response.overshoot) : "",
           time(response.settling_time),
@@ -52,7 +52,7 @@ TextRow costs_text(const DesignReport& report, const DriveWithValue& one) {
 }
 
 std::string result_of(const DesignReport& report, const Answer& answer) {
-  return result_text(answer, report.angle, is_normalized(report.drive));
+  return result_text(answer, report.drive);
 }
 
 /// Of what was searched value by value the ends are those of a grid, and are named.
@@ -70,7 +70,7 @@ std::string interval_text(const ParameterText& shown, const FeasibleValues& valu
 TextRow row_text(const DesignReport& report, const DesignedParameter& parameter,
                  std::size_t index) {
   const FeasibleValues& values = parameter.values;
-  const ParameterText text(report.drive, values.parameter, report.angle);
+  const ParameterText text(report.drive, values.parameter);
   const DriveWithValue& one = parameter.results[index];
   const bool has_ratio = !text.is_word() && values.present != 0.0 && !std::isnan(values.present);
   const bool is_first = index == 0;
@@ -98,7 +98,7 @@ std::string table_of_results(const DesignReport& report) {
           ? "ω_n, ζ and K show its cost"
           : "its result at the value nearest to the present one,\n" +
                 step_text(report.design.present.answer.step.value_or(StepResponse{}),
-                          report.angle) +
+                          report.drive.angle_unit) +
                 ", and the linear loop without the gap";
   return "One change by itself, other parameters fixed; " + costs + "\n" + table_text(rows) + "\n";
 }
@@ -106,7 +106,7 @@ std::string table_of_results(const DesignReport& report) {
 /// Why no value meets the target.
 std::string reason(const DesignReport& report, const DesignedParameter& parameter) {
   const FeasibleValues& values = parameter.values;
-  const ParameterText shown(report.drive, values.parameter, report.angle);
+  const ParameterText shown(report.drive, values.parameter);
   if (values.searched.low == values.searched.high && values.searched.low == 0.0) {
     return "is 0 and has no multiples";
   }
@@ -160,7 +160,7 @@ std::string border_text(const ParameterText& shown, const Border& border) {
 std::string borders_text(const DesignReport& report) {
   TextRows rows;
   for (const DesignedParameter& parameter : report.design.parameters) {
-    const ParameterText shown(report.drive, parameter.values.parameter, report.angle);
+    const ParameterText shown(report.drive, parameter.values.parameter);
     for (const Border& border : parameter.values.borders) {
       rows.push_back(
           {parameter.values.parameter, shown.of(border.end), border_text(shown, border)});
@@ -184,7 +184,7 @@ std::string undecided_parts(const DesignReport& report, SearchKind kind) {
   for (const DesignedParameter& parameter : report.design.parameters) {
     const FeasibleValues& values = parameter.values;
     if (values.kind != kind) continue;
-    const ParameterText shown(report.drive, values.parameter, report.angle);
+    const ParameterText shown(report.drive, values.parameter);
     std::size_t count = 0;
     for (const Bounds& part : values.undecided) {
       if (!is_worth_naming(values, part) || ++count > most_named) continue;
@@ -200,7 +200,7 @@ std::string proofs_text(const DesignReport& report) {
   std::string text;
   for (const DesignedParameter& parameter : report.design.parameters) {
     const FeasibleValues& values = parameter.values;
-    const ParameterText shown(report.drive, values.parameter, report.angle);
+    const ParameterText shown(report.drive, values.parameter);
     for (std::size_t i = 0; i < values.proofs.size(); ++i) {
       const IntervalProof& proof = values.proofs[i];
       text += "  " + values.parameter + " " + shown.of(values.intervals[i]) + ": ";
@@ -273,7 +273,7 @@ std::string scanned_text(const DesignReport& report) {
 }
 
 std::string search_text(const DesignReport& report) {
-  SearchedGrids grids(report.drive, report.angle);
+  SearchedGrids grids(report.drive);
   for (const DesignedParameter& parameter : report.design.parameters) grids.add(parameter.values);
   if (grids.text().empty()) return "";
   std::string text =
@@ -332,7 +332,7 @@ std::string design_text(const DesignReport& report) {
   return fmt::format("target: {}\nat present: {}, {}\n\n", report.target_text,
                      result_of(report, present), met) +
          table_of_results(report) + borders_text(report) + reasons(report) + proofs_text(report) +
-         wrapped(certainty(report)) + hidden_error_text(report.target, answers, report.angle);
+         wrapped(certainty(report)) + hidden_error_text(report.target, answers, report.drive);
 }
 
 std::vector<ParameterFacts> DesignReport::parameters() const {

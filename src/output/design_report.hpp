@@ -18,7 +18,6 @@ struct DesignReport {
   std::string target_text{};  ///< as its author wrote it
   Target target{};            ///< what it asks for
   Design design{};            ///< the answer
-  AngleUnit angle{};          ///< the author's, of text
   Provenance provenance{};    ///< how it was made
 
   [[nodiscard]] std::vector<ParameterFacts> parameters()

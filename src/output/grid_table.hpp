@@ -18,7 +18,6 @@ struct GridTable {
   Grid grid{};
   Table table{};
   Provenance provenance{};
-  AngleUnit angle{};                                            ///< of pictures
   std::optional<Target> target{};                               ///< of a map that asks for one
   std::string target_text{};                                    ///< as typed
   std::optional<MapPoint> present{};                            ///< the drive as it is, for a mark

@@ -21,15 +21,14 @@ ParameterFacts facts_of(const Drive& drive, const std::string& path) {
           .choices = parameter.choices};
 }
 
-ParameterText::ParameterText(const Drive& drive, std::string parameter, const AngleUnit& angle,
-                             int digits)
+ParameterText::ParameterText(const Drive& drive, std::string parameter, int digits)
     : drive_(drive),
       axis_{.path = std::move(parameter)},
       unit_(unit_of(axis_, drive)),
       digits_(digits) {
   if (unit_ == "rad") {
-    unit_ = angle.name;
-    size_ = angle.radians;
+    unit_ = drive.angle_unit.name;
+    size_ = drive.angle_unit.radians;
   }
   if (unit_ == "1") unit_.clear();
 }
@@ -59,7 +58,7 @@ std::string ParameterText::of(const Bounds& interval) const {
 }
 
 void SearchedGrids::add(const std::string& parameter, std::size_t count, const Bounds& range) {
-  const ParameterText shown(drive_, parameter, angle_);
+  const ParameterText shown(drive_, parameter);
   text_ += fmt::format("{}{}, {} values", text_.empty() ? "" : "; ", parameter, count);
   if (!shown.is_word()) text_ += " from " + shown.of(range.low) + " to " + shown.of(range.high);
 }
@@ -86,7 +85,7 @@ DrawnUnit drawn_unit(Quantity quantity, const AngleUnit& angle, bool is_normaliz
   return {unit == "J" ? "K rad²" : unit};
 }
 
-std::string result_text(const Answer& answer, const AngleUnit& angle, bool is_normalized) {
+std::string result_text(const Answer& answer, const Drive& drive) {
   constexpr int few_digits = 3;
   std::string text = name_of(answer.verdict);
   if (answer.verdict == Verdict::cannot_hunt && answer.growth_at_rest) {
@@ -98,20 +97,22 @@ std::string result_text(const Answer& answer, const AngleUnit& angle, bool is_no
   const bool is_of_motor = load && motor && *load < hardly * *motor;
   const std::optional<double> amplitude = is_of_motor ? motor : load;
   const std::optional<double> error = answer.value(Quantity::error);
-  const std::string off = error && std::isfinite(*error) && *error > 1.05 * load.value_or(0.0)
-                              ? ", up to " + angle_text(*error, angle, few_digits) + " off"
-                              : "";
+  const std::string off =
+      error && std::isfinite(*error) && *error > 1.05 * load.value_or(0.0)
+          ? ", up to " + angle_text(*error, drive.angle_unit, few_digits) + " off"
+          : "";
   if (!amplitude || *amplitude == 0.0) return text + off;
-  text += (is_of_motor ? ": motor ±" : ": ±") + angle_text(*amplitude, angle, few_digits);
+  text +=
+      (is_of_motor ? ": motor ±" : ": ±") + angle_text(*amplitude, drive.angle_unit, few_digits);
   const auto frequency = answer.value(Quantity::frequency);
-  if (frequency && !is_normalized) {
+  if (frequency && !is_normalized(drive)) {
     text += " at " + significant(*frequency, few_digits) + " Hz";
   }
   return text + off;
 }
 
 std::string hidden_error_text(const Target& target, const std::vector<const Answer*>& answers,
-                              const AngleUnit& angle) {
+                              const Drive& drive) {
   double error = 0.0;
   for (const Answer* answer : answers) {
     const double own = answer->value(Quantity::error).value_or(0.0);
@@ -120,7 +121,7 @@ std::string hidden_error_text(const Target& target, const std::vector<const Answ
   if (error == 0.0) return "";
   return further_paragraph(
       "The target limits the amplitude of hunting alone: where it is met the load may end " +
-      angle_text(error, angle, usual_digits) +
+      angle_text(error, drive.angle_unit, usual_digits) +
       " off. \"error <= …\" limits where it ends, static error and hunting "
       "together.");
 }

@@ -27,7 +27,7 @@ ParameterFacts facts_of(const Drive& drive, const std::string& path);
 /// are words. Precondition: the drive has the parameter, and outlives this.
 class ParameterText {
  public:
-  ParameterText(const Drive& drive, std::string parameter, const AngleUnit& angle, int digits = 6);
+  ParameterText(const Drive& drive, std::string parameter, int digits = 6);
 
   /// Shows numbers in another unit, whose size is in SI.
   void show_in(const std::string& unit, double size);
@@ -57,7 +57,7 @@ class ParameterText {
 /// The grids of values that a search tried, of the parameters that were searched value by value.
 class SearchedGrids {
  public:
-  SearchedGrids(const Drive& drive, const AngleUnit& angle) : drive_(drive), angle_(angle) {}
+  explicit SearchedGrids(const Drive& drive) : drive_(drive) {}
 
   /// `searched`: FeasibleValues or a ParameterMargin.
   template <class Searched>
@@ -76,7 +76,6 @@ class SearchedGrids {
   void add(const std::string& parameter, std::size_t count, const Bounds& range);
 
   const Drive& drive_;
-  const AngleUnit& angle_;
   std::string text_;
   double located_ = 0.0;
 };
@@ -95,10 +94,10 @@ DrawnUnit drawn_unit(Quantity quantity, const AngleUnit& angle, bool is_normaliz
 
 /// "hunts: motor ±0.218 deg at 0.261 Hz": the verdict and the largest motion, of the motor where it
 /// hunts within the gap; the growth at rest of what cannot hunt. A normal form has no frequencies.
-std::string result_text(const Answer& answer, const AngleUnit& angle, bool is_normalized = false);
+std::string result_text(const Answer& answer, const Drive& drive);
 
 /// A paragraph where one of the answers meets the target and hides_error(); empty otherwise.
 std::string hidden_error_text(const Target& target, const std::vector<const Answer*>& answers,
-                              const AngleUnit& angle);
+                              const Drive& drive);
 
 }  // namespace gearlash

@@ -41,7 +41,7 @@ std::string percent_text(const Estimate& estimate, std::size_t samples) {
 }
 
 std::string angle_text(double angle, const ToleranceReport& report) {
-  return gearlash::angle_text(angle, report.angle, usual_digits);
+  return gearlash::angle_text(angle, report.drive.nominal.angle_unit, usual_digits);
 }
 
 std::string amplitude_text(const std::optional<Estimate>& estimate, const ToleranceReport& report) {
@@ -95,7 +95,7 @@ std::string index_text(const std::optional<SensitivityIndices>& indices,
 }
 
 ParameterText text_of(const std::string& path, const ToleranceReport& report) {
-  return {report.drive.nominal, path, report.angle, usual_digits};
+  return {report.drive.nominal, path, usual_digits};
 }
 
 /// "± 5 %", "0.05 rad to 0.15 rad", "normal, 3 %", "2 lots".
@@ -171,7 +171,7 @@ std::string worst_text(const ToleranceReport& report) {
   } else {
     text += name_of(worst.verdict);
     if (worst.amplitude > 0.0 && std::isfinite(worst.amplitude)) {
-      text += ": " + swing_text(worst.amplitude, report.angle, usual_digits);
+      text += ": " + swing_text(worst.amplitude, report.drive.nominal.angle_unit, usual_digits);
       if (has_frequency(report)) {
         text += " at " + significant(worst.frequency, usual_digits) + " Hz";
       }
@@ -199,14 +199,16 @@ std::string proved_text(const ToleranceReport& report) {
     return further_paragraph("Not proved: a bound of all samples within the tolerances (" +
                              proved.reason + ").");
   }
-  std::string text = "Proved: no sample within the tolerances swings by more than " +
-                     swing_bound_text(*proved.bound, report.angle, usual_digits) + " in the end" +
-                     (has_limit(report.drive.nominal) ? ", if its torque stays off the limit" : "");
+  std::string text =
+      "Proved: no sample within the tolerances swings by more than " +
+      swing_bound_text(*proved.bound, report.drive.nominal.angle_unit, usual_digits) +
+      " in the end" +
+      (has_limit(report.drive.nominal) ? ", if its torque stays off the limit" : "");
   text += fmt::format(" (the ceiling, over {} {}", proved.parts,
                       proved.parts == 1 ? "box" : "boxes of parameters");
   if (proved.largest) {
     text += "; of single drives it reaches " +
-            swing_bound_text(*proved.largest, report.angle, usual_digits);
+            swing_bound_text(*proved.largest, report.drive.nominal.angle_unit, usual_digits);
   }
   return further_paragraph(text + ").");
 }

@@ -30,7 +30,6 @@ struct ToleranceReport {
   WorstCorner worst{};               ///< likewise
   std::optional<WidestBacklash> backlash{};  ///< if a yield was demanded and can be reached
   bool stopped = false;                      ///< by a limit: not all is known
-  AngleUnit angle{};                         ///< of text
   Provenance provenance{};                   ///< how it was made
 
   [[nodiscard]] std::vector<Moments> moments() const;  ///< of each parameter that varies

@@ -20,7 +20,7 @@ constexpr double turn = 2.0 * std::numbers::pi;
 const Drive& present_drive(const TuneReport& report) { return report.task.series.nominal; }
 
 std::string parameter_text(const TuneReport& report, const std::string& path, double value) {
-  return ParameterText(present_drive(report), path, report.angle).of(value);
+  return ParameterText(present_drive(report), path).of(value);
 }
 
 /// "gearbox.backlash = 1 deg, load.inertia = 0.2 kg m2".
@@ -41,7 +41,7 @@ std::string table_of_values(const TuneReport& report) {
     rows.push_back({axis.path, parameter_text(report, axis.path, now),
                     parameter_text(report, axis.path, tuned),
                     now > 0.0 ? change_text(tuned / now) : "",
-                    ParameterText(present_drive(report), axis.path, report.angle)
+                    ParameterText(present_drive(report), axis.path)
                         .of(Bounds{axis.values.front(), axis.values.back()})});
   }
   return table_text(rows);
@@ -57,7 +57,7 @@ std::string reached_text(const TuneReport& report, const TunedDrive& tuned) {
       return ", settling within " + significant(tuned.reached, tuned_digits) + " s";
     case Aim::static_error:
       return ", with a static error of at most " +
-             angle_text(tuned.reached, report.angle, tuned_digits);
+             angle_text(tuned.reached, present_drive(report).angle_unit, tuned_digits);
   }
   return "";
 }
@@ -87,7 +87,7 @@ std::string limiting_text(const TuneReport& report) {
   if (!unit) return "";
   const std::string text = values_text(report, report.task.series.varied, unit->values);
   const bool is_searched = unit->answer.verdict != Verdict::undecided || unit->answer.search;
-  const std::string what = is_searched ? result_text(unit->answer, report.angle)
+  const std::string what = is_searched ? result_text(unit->answer, present_drive(report))
                                        : "its linear loop lacks the phase margin";
   if (text.empty()) return "What it does then: " + what + ".";
   const bool all_meet = report.tuned.met == report.tuned.units;
@@ -140,13 +140,13 @@ std::vector<Note> TuneReport::notes() const {
 
 std::string tune_text(const TuneReport& report) {
   return fmt::format("target: {}\nat present: {}\ntuned: {}\n\n", report.target_text,
-                     result_text(report.present, report.angle),
-                     result_text(report.nominal, report.angle)) +
+                     result_text(report.present, present_drive(report)),
+                     result_text(report.nominal, present_drive(report))) +
          table_of_values(report) + further_paragraph(outcome_text(report)) +
          further_paragraph(listed(report.notes(), &Note::text, " ")) +
          further_paragraph(limiting_text(report)) + further_paragraph(advice_text(report)) +
          further_paragraph(effort_text(report)) +
-         hidden_error_text(report.task.target, {&report.nominal}, report.angle);
+         hidden_error_text(report.task.target, {&report.nominal}, present_drive(report));
 }
 
 std::optional<std::string> TuneReport::why_integral_action_hunts() const {

@@ -19,7 +19,6 @@ struct TuneReport {
   Answer present{};           ///< of it as it is
   /// The same task without integral action, where nothing met the target with it.
   std::optional<TunedDrive> without_integral{};
-  AngleUnit angle{};        ///< of text
   Provenance provenance{};  ///< how it was made
 
   [[nodiscard]] std::optional<std::string> why_integral_action_hunts()

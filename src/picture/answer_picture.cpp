@@ -27,7 +27,7 @@ struct Step {
 
 Step step_to_draw(const AnswerReport& report, const Analysis& analysis) {
   const NormalizedServo& servo = analysis.servo->servo;
-  const AngleUnit& unit = report.angle;
+  const AngleUnit& unit = report.drive.angle_unit;
   const auto rounded = [&](double size) {
     return unit.radians * round_up(unit.from_radians(size));
   };
@@ -78,7 +78,6 @@ MotionPicture servo_picture(const AnswerReport& report, const Analysis& analysis
   const LimitCycle* cycle = largest_stable(*analysis.closed);
   MotionPicture picture{.title = headline(report),
                         .drive = report.drive,
-                        .angle = report.angle,
                         .period = 2.0 * std::numbers::pi / analysis.servo->natural_frequency};
   picture.motions.push_back(
       {.motion =
@@ -95,7 +94,7 @@ MotionPicture servo_picture(const AnswerReport& report, const Analysis& analysis
   for (const LimitCycle& other : analysis.closed->cycles) {
     if (&other == cycle || picture.motions.size() >= 2 + most_others) continue;
     const double stays = std::abs(other.multiplier);
-    const std::string swing = " ±" + angle_text(other.amplitude, report.angle, 3);
+    const std::string swing = " ±" + angle_text(other.amplitude, report.drive.angle_unit, 3);
     const std::string name = (stays < 1.0 ? "stable cycle" : "unstable cycle") + swing;
     const auto is_named = [&](const DrawnMotion& drawn) { return drawn.name == name; };
     if (any_of(picture.motions, is_named)) continue;  // cannot be told apart either
@@ -113,8 +112,7 @@ MotionPicture search_picture(const AnswerReport& report, const Analysis& analysi
                              Progress& progress) {
   const drive::AttractorSearch& search = *analysis.search;
   const drive::ReducedDrive& reduced = analysis.reduced;
-  MotionPicture picture =
-      attractor_picture(headline(report), report.drive, reduced, search, report.angle);
+  MotionPicture picture = attractor_picture(headline(report), report.drive, reduced, search);
   const std::optional<StartPlane> plane = plane_to_draw(picture, reduced, search);
   if (!plane || search.outcomes.empty()) return picture;
   std::optional<Basins> basins;
@@ -136,8 +134,7 @@ MotionPicture phase_picture(const AnswerReport& report, const Analysis& analysis
 
 MotionPicture response_picture(const AnswerReport& report, const Analysis& analysis) {
   if (!analysis.closed) {
-    return hunting_picture(headline(report), report.drive, analysis.reduced, *analysis.search,
-                           report.angle);
+    return hunting_picture(headline(report), report.drive, analysis.reduced, *analysis.search);
   }
   MotionPicture picture = servo_picture(report, analysis);
   picture.motions.resize(1);

@@ -122,11 +122,11 @@ Motion motion_from(const drive::ReducedDrive& reduced, const drive::ShaftStates&
 
 MotionPicture hunting_picture(const std::string& title, const Drive& drive,
                               const drive::ReducedDrive& reduced,
-                              const drive::AttractorSearch& search, const AngleUnit& angle) {
+                              const drive::AttractorSearch& search) {
   constexpr double swings = 10.0;
   constexpr double periods = 8.0;
   constexpr std::size_t most_events = 200'000;
-  MotionPicture picture{.title = title, .drive = drive, .angle = angle};
+  MotionPicture picture{.title = title, .drive = drive};
   const Seen seen = seen_in(search);
   const drive::Outcome* outcome =
       start_to_show(search, seen, drive::value_at(reduced.reference, 0.0));
@@ -139,22 +139,23 @@ MotionPicture hunting_picture(const std::string& title, const Drive& drive,
       std::max({swings * picture.period, seen.approach + periods * seen.period,
                 runs_away ? std::min(outcome->watched, longest) : 0.0});  // so that it shows
   picture.motions.push_back({.motion = motion_from(reduced, start, until, most_events)});
-  picture.subtitle = "from " + angle_text(start.load_position, angle, digits) + ", at rest";
+  picture.subtitle =
+      "from " + angle_text(start.load_position, drive.angle_unit, digits) + ", at rest";
   return picture;
 }
 
 MotionPicture attractor_picture(const std::string& title, const Drive& drive,
                                 const drive::ReducedDrive& reduced,
-                                const drive::AttractorSearch& search, const AngleUnit& angle) {
-  MotionPicture picture{.title = title, .subtitle = "", .drive = drive, .angle = angle};
+                                const drive::AttractorSearch& search) {
+  MotionPicture picture{.title = title, .subtitle = "", .drive = drive};
   const char* per = is_normalized(drive) ? "/ω_n" : " s";
   for (const drive::FoundCycle& cycle : search.cycles) {
     const bool is_first = picture.motions.empty();
     picture.period = is_first ? cycle.period() : std::min(picture.period, cycle.period());
     picture.motions.push_back(
         {.motion = motion_of_cycle(reduced, search, cycle),
-         .name = name_of_cycle(cycle, cycle.amplitude, angle) + per,
-         .name_of_motor = name_of_cycle(cycle, cycle.motor_amplitude, angle) + per,
+         .name = name_of_cycle(cycle, cycle.amplitude, drive.angle_unit) + per,
+         .name_of_motor = name_of_cycle(cycle, cycle.motor_amplitude, drive.angle_unit) + per,
          .is_cycle = true,
          .role =
              cycle.stability == Stability::unstable ? MotionRole::unstable : MotionRole::subject});

@@ -16,12 +16,12 @@ Motion motion_from(const drive::ReducedDrive& reduced, const drive::ShaftStates&
 /// are measured from the reference.
 MotionPicture attractor_picture(const std::string& title, const Drive& drive,
                                 const drive::ReducedDrive& reduced,
-                                const drive::AttractorSearch& search, const AngleUnit& angle);
+                                const drive::AttractorSearch& search);
 
 /// The motion from one of the search's starts to what is seen in practice (hunting, else running
 /// away, else rest), over time. Its subtitle has the start.
 MotionPicture hunting_picture(const std::string& title, const Drive& drive,
                               const drive::ReducedDrive& reduced,
-                              const drive::AttractorSearch& search, const AngleUnit& angle);
+                              const drive::AttractorSearch& search);
 
 }  // namespace gearlash

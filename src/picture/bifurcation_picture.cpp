@@ -64,12 +64,11 @@ struct Drawing {
   }
 };
 
-Drawing drawing_of(const BifurcationDiagram& diagram, const Grid& grid, Quantity quantity,
-                   const AngleUnit& angle) {
+Drawing drawing_of(const BifurcationDiagram& diagram, const Grid& grid, Quantity quantity) {
   Drawing drawing{.quantity = quantity,
-                  .per_value = drawn_unit(quantity, grid, angle).size,
-                  .per_parameter = drawn_unit(grid.axes.front(), grid.drive, angle).size,
-                  .y = plot_axis(quantity, grid, angle)};
+                  .per_value = drawn_unit(quantity, grid).size,
+                  .per_parameter = drawn_unit(grid.axes.front(), grid.drive).size,
+                  .y = plot_axis(quantity, grid)};
   Extent values;
   const auto include = [&](double value) {
     if (std::isfinite(value) && value > 0.0) values.include(value);
@@ -216,11 +215,10 @@ std::string subtitle_of(const BifurcationDiagram& diagram, const Grid& grid) {
 
 bool has_branches(Quantity quantity) { return value_of({.period = 1.0}, quantity).has_value(); }
 
-Plot bifurcation_plot(const BifurcationDiagram& diagram, const Grid& grid, Quantity quantity,
-                      const AngleUnit& angle) {
+Plot bifurcation_plot(const BifurcationDiagram& diagram, const Grid& grid, Quantity quantity) {
   const Axis& axis = grid.axes.front();
-  const Drawing drawing = drawing_of(diagram, grid, quantity, angle);
-  Panel panel{.x = plot_axis(axis, grid.drive, angle), .y = drawing.y};
+  const Drawing drawing = drawing_of(diagram, grid, quantity);
+  Panel panel{.x = plot_axis(axis, grid.drive), .y = drawing.y};
   add_rest(diagram, drawing, panel);
   add_branches(diagram, drawing, panel);
   add_irregular(diagram, drawing, panel);

@@ -78,8 +78,8 @@ Plot chart_plot(const GridTable& table, Quantity quantity) {
   const Grid& grid = table.grid;
   const Family family(grid);
   const Axis& x = grid.axes.back();
-  const double x_unit = drawn_unit(x, grid.drive, table.angle).size;
-  const double y_unit = drawn_unit(quantity, grid, table.angle).size;
+  const double x_unit = drawn_unit(x, grid.drive).size;
+  const double y_unit = drawn_unit(quantity, grid).size;
   const std::size_t count = grid.axes.size() == 1 ? 1 : grid.axes.front().values.size();
   std::vector<NamedCurve> curves;
   double lowest = 0.0;
@@ -92,8 +92,7 @@ Plot chart_plot(const GridTable& table, Quantity quantity) {
         any_of(curve.line, [](const MapPoint& point) { return std::isfinite(point.y); });
     if (grid.axes.size() > 1) {
       const Axis& named = grid.axes.front();
-      curve.name = in_words(named.path) + " " +
-                   text_with_unit(named, grid.drive, named.values[i], table.angle);
+      curve.name = in_words(named.path) + " " + text_with_unit(named, grid.drive, named.values[i]);
       if (!is_drawn) curve.name += ": " + word_for_nothing(table, first, x.values.size(), quantity);
     }
     for (const MapPoint& point : curve.line) lowest = std::min(lowest, point.y);
@@ -105,8 +104,7 @@ Plot chart_plot(const GridTable& table, Quantity quantity) {
     draw_in(x_unit, y_unit, curve);
     curves.push_back(std::move(curve));
   }
-  Panel panel{.x = plot_axis(x, grid.drive, table.angle),
-              .y = plot_axis(quantity, grid, table.angle)};
+  Panel panel{.x = plot_axis(x, grid.drive), .y = plot_axis(quantity, grid)};
   if (!(lowest < 0.0)) panel.y.low = 0.0;
   constexpr double mark_size = 0.8;
   add_curves(curves, mark_size, panel);

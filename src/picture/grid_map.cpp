@@ -26,7 +26,7 @@ const Layer ceiling_style{.colour = "#7b3294", .width = 1.0, .dashes = "2,3"};
 
 /// Round in the drawn unit.
 std::vector<double> levels_of(const GridTable& table, Quantity quantity) {
-  const double unit = drawn_unit(quantity, table.grid, table.angle).size;
+  const double unit = drawn_unit(quantity, table.grid).size;
   std::vector<double> motions(table.table.rows());
   for (std::size_t row = 0; row < motions.size(); ++row) {
     motions[row] = motion_value(table.table, quantity, row) / unit;
@@ -39,7 +39,7 @@ std::vector<double> levels_of(const GridTable& table, Quantity quantity) {
 
 /// With their levels in the drawn unit.
 std::vector<Contour> drawn_contours(const GridTable& table, Quantity quantity) {
-  const double unit = drawn_unit(quantity, table.grid, table.angle).size;
+  const double unit = drawn_unit(quantity, table.grid).size;
   const std::vector<double> levels = levels_of(table, quantity);
   const auto in_table = of_each(levels, [&](double level) { return level * unit; });
   std::vector<Contour> contours = contours_of(table.grid, table.table, quantity, in_table);
@@ -143,14 +143,13 @@ void add_all_contours(const GridTable& table, Quantity quantity,
   for (const Contour& contour : contours) avoid(contour.curves);
   for (const Contour& contour : ceilings) avoid(contour.curves);
   TextPlacer placer(std::move(lines), panel.height);
-  const PlotAxis axis = plot_axis(quantity, table.grid, table.angle);
+  const PlotAxis axis = plot_axis(quantity, table.grid);
   add_contours(contours, table.target ? label_of(axis) : axis.name, false, paper, placer, panel);
   add_contours(ceilings, "ceiling, proved", true, paper, placer, panel);
 }
 
-Panel panel_of(const Grid& grid, const AngleUnit& angle) {
-  Panel panel{.x = plot_axis(grid.axes[1], grid.drive, angle),
-              .y = plot_axis(grid.axes[0], grid.drive, angle)};
+Panel panel_of(const Grid& grid) {
+  Panel panel{.x = plot_axis(grid.axes[1], grid.drive), .y = plot_axis(grid.axes[0], grid.drive)};
   panel.x.has_grid = panel.y.has_grid = false;
   return panel;
 }
@@ -168,8 +167,10 @@ void add_inner_borders(const GridTable& table, const MapPaper& paper, Panel& pan
 
 Plot contour_plot(const GridTable& table, Quantity quantity) {
   const Grid& grid = table.grid;
-  Panel panel = panel_of(grid, table.angle);
-  const MapPaper paper{Paper(panel_of(grid, {})), Paper(panel)};
+  Panel panel = panel_of(grid);
+  Grid in_radians = grid;
+  in_radians.drive.angle_unit = {};
+  const MapPaper paper{Paper(panel_of(in_radians)), Paper(panel)};
   const std::vector<MapRegion> regions = table.regions       ? *table.regions
                                          : has_regions(grid) ? regions_of(table)
                                                              : std::vector<MapRegion>{};
@@ -182,16 +183,15 @@ Plot contour_plot(const GridTable& table, Quantity quantity) {
                            : "hunting ends",
            borders, boundary_style, paper, panel);
   if (const auto mark = mark_of(table)) {
-    const double x_unit = drawn_unit(grid.axes[1], grid.drive, table.angle).size;
-    const double y_unit = drawn_unit(grid.axes[0], grid.drive, table.angle).size;
+    const double x_unit = drawn_unit(grid.axes[1], grid.drive).size;
+    const double y_unit = drawn_unit(grid.axes[0], grid.drive).size;
     panel.layers.push_back({.kind = LayerKind::marks,
                             .name = "now",
                             .size = 1.0,
                             .points = {{mark->x / x_unit, mark->y / y_unit}}});
   }
   return plot_of(table.target ? "Target: " + table.target_text
-                              : name_with_unit(title_of(quantity),
-                                               drawn_unit(quantity, grid, table.angle).name),
+                              : name_with_unit(title_of(quantity), drawn_unit(quantity, grid).name),
                  subtitle_of(grid), std::move(panel));
 }
 
@@ -206,12 +206,11 @@ Plot cell_plot(const GridTable& table, Quantity quantity) {
               .dot_meaning = "comes to rest",
               .frame_meaning = table.target ? "framed: " + table.target_text : ""};
   const auto texts_of = [&](const Axis& axis) {
-    return of_each(axis.values,
-                   [&](double value) { return short_text(axis, grid.drive, value, table.angle); });
+    return of_each(axis.values, [&](double value) { return short_text(axis, grid.drive, value); });
   };
   cells.columns = texts_of(x);
   cells.rows = texts_of(y);
-  const double unit = drawn_unit(quantity, grid, table.angle).size;
+  const double unit = drawn_unit(quantity, grid).size;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < y.values.size(); ++i) {
     std::vector<double>& row = cells.values.emplace_back();
@@ -230,10 +229,8 @@ Plot cell_plot(const GridTable& table, Quantity quantity) {
   constexpr double far = 10.0;  // a ratio that proportional colours would not show
   if (least > 0.0 && cells.largest > far * least) cells.least = least;
   if (cells.largest == 0.0) cells.largest = 1.0;
-  const auto label = [&](const Axis& axis) {
-    return label_of(plot_axis(axis, grid.drive, table.angle));
-  };
-  return plot_of(name_with_unit(title_of(quantity), drawn_unit(quantity, grid, table.angle).name),
+  const auto label = [&](const Axis& axis) { return label_of(plot_axis(axis, grid.drive)); };
+  return plot_of(name_with_unit(title_of(quantity), drawn_unit(quantity, grid).name),
                  subtitle_of(grid) + "; empty: not known", cell_panel(cells, label(x), label(y)));
 }
 

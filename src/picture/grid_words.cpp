@@ -24,19 +24,19 @@ bool in_backlashes(const Grid& grid) {
 
 }  // namespace
 
-DrawnUnit drawn_unit(Quantity quantity, const Grid& grid, const AngleUnit& angle) {
+DrawnUnit drawn_unit(Quantity quantity, const Grid& grid) {
   const std::string_view unit = info_of(quantity).unit;
   if (in_backlashes(grid)) {
     if (unit == "rad") return {"backlashes"};
     if (unit == "rad/s") return {"backlashes × ω_n"};
     if (unit == "J") return {"K × backlash²"};
   }
-  return drawn_unit(quantity, angle, is_normalized(grid.drive));
+  return drawn_unit(quantity, grid.drive.angle_unit, is_normalized(grid.drive));
 }
 
-DrawnUnit drawn_unit(const Axis& axis, const Drive& drive, const AngleUnit& angle) {
+DrawnUnit drawn_unit(const Axis& axis, const Drive& drive) {
   const std::string unit = unit_of(axis, drive);
-  if (unit == "rad") return {angle.name, angle.radians};
+  if (unit == "rad") return {drive.angle_unit.name, drive.angle_unit.radians};
   return {unit == "1" ? "" : unit};
 }
 
@@ -64,27 +64,25 @@ std::string title_of(Quantity quantity) {
   return title;
 }
 
-PlotAxis plot_axis(Quantity quantity, const Grid& grid, const AngleUnit& angle) {
+PlotAxis plot_axis(Quantity quantity, const Grid& grid) {
   return {.name = in_words(std::string(name_of(quantity))),
-          .unit = drawn_unit(quantity, grid, angle).name};
+          .unit = drawn_unit(quantity, grid).name};
 }
 
 bool has_words(const Axis& axis, const Drive& drive) { return unit_of(axis, drive).empty(); }
 
-std::string short_text(const Axis& axis, const Drive& drive, double value, const AngleUnit& angle) {
-  return has_words(axis, drive)
-             ? text_of(axis, drive, value)
-             : fmt::format("{:.4g}", value / drawn_unit(axis, drive, angle).size);
+std::string short_text(const Axis& axis, const Drive& drive, double value) {
+  return has_words(axis, drive) ? text_of(axis, drive, value)
+                                : fmt::format("{:.4g}", value / drawn_unit(axis, drive).size);
 }
 
-std::string text_with_unit(const Axis& axis, const Drive& drive, double value,
-                           const AngleUnit& angle) {
-  const std::string unit = drawn_unit(axis, drive, angle).name;
-  return short_text(axis, drive, value, angle) + (unit.empty() ? "" : " " + unit);
+std::string text_with_unit(const Axis& axis, const Drive& drive, double value) {
+  const std::string unit = drawn_unit(axis, drive).name;
+  return short_text(axis, drive, value) + (unit.empty() ? "" : " " + unit);
 }
 
-PlotAxis plot_axis(const Axis& axis, const Drive& drive, const AngleUnit& angle) {
-  const auto [unit, per] = drawn_unit(axis, drive, angle);
+PlotAxis plot_axis(const Axis& axis, const Drive& drive) {
+  const auto [unit, per] = drawn_unit(axis, drive);
   PlotAxis drawn{.name = in_words(axis.path),
                  .unit = unit,
                  .logarithmic = axis.logarithmic && axis.values.size() > 1};

@@ -55,9 +55,8 @@ struct PhaseWindow {
 struct MotionPicture {
   std::string title{};     ///< one line
   std::string subtitle{};  ///< a headline, or empty
-  Drive drive{};           ///< its numbers are shown below the title
+  Drive drive{};           ///< below the title are its numbers; axes have its unit of angles
   std::vector<DrawnMotion> motions{};
-  AngleUnit angle{};    ///< of the axes
   double period = 1.0;  ///< s, of the loop: see drawn_motion()
   /// s, of the hunting, if it is known: the last three periods are enlarged. 0: measured.
   double hunting_period = 0.0;

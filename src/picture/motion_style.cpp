@@ -38,7 +38,7 @@ std::vector<DrawnPiece> legible_curve(const MotionPicture& picture, const Motion
   std::vector<double> leaps;
   const Signal reference = picture.drive.reference.value_or(Signal{});
   if (const auto* step = std::get_if<StepSignal>(&reference)) leaps.push_back(step->time);
-  return drawn_motion(motion, picture.angle, picture.period, leaps);
+  return drawn_motion(motion, picture.drive.angle_unit, picture.period, leaps);
 }
 
 std::string numbers_line(const MotionPicture& picture) {
@@ -46,7 +46,7 @@ std::string numbers_line(const MotionPicture& picture) {
   drive.reference.reset();
   drive.load_torque.reset();
   const drive::ReducedDrive reduced = reduce(drive);
-  std::string line = "backlash " + angle_text(reduced.backlash, picture.angle, 4);
+  std::string line = "backlash " + angle_text(reduced.backlash, picture.drive.angle_unit, 4);
   if (const auto closed = proportional_servo(drive)) {
     const NormalizedServo& servo = closed->servo;
     line = fmt::format("damping {}, inertia ratio {}, friction ratio {}, {}",
@@ -65,7 +65,7 @@ std::string numbers_line(const MotionPicture& picture) {
     line += fmt::format(", sampled every {} ms", significant(1e3 * drive.sampling->period, 4));
   }
   if (reduced.sensing.resolution > 0.0) {
-    line += ", encoder step " + angle_text(reduced.sensing.resolution, picture.angle, 3);
+    line += ", encoder step " + angle_text(reduced.sensing.resolution, picture.drive.angle_unit, 3);
   }
   return line;
 }

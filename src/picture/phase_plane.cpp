@@ -182,7 +182,7 @@ class PhasePanel {
     }
     x_ = window_ != nullptr ? window_->positions : widened(positions, 0.05);
     y_ = window_ != nullptr ? window_->speeds : widened(speeds, 0.05);
-    const std::string& unit = picture_.angle.name;
+    const std::string& unit = picture_.drive.angle_unit.name;
     panel.x = {.name = "position from the reference", .unit = unit, .low = x_.low, .high = x_.high};
     panel.y = {.name = "speed",
                .unit = is_normalized(picture_.drive) ? unit + " ω_n" : unit + "/s",
@@ -255,7 +255,7 @@ class PhasePanel {
   /// Lines at 0, and a bar of the gap's width for comparison.
   void add_rulers() {
     panel.layers.push_back(zero_lines(panel, {.width = 0.7}));
-    const double gap = picture_.angle.from_radians(reduce(picture_.drive).backlash);
+    const double gap = picture_.drive.angle_unit.from_radians(reduce(picture_.drive).backlash);
     const double width = x_.high - x_.low;
     const double height = y_.high - y_.low;
     constexpr double visible = 0.005;  // of the axis

@@ -118,7 +118,7 @@ bool has_several_basins(const drive::AttractorSearch& search) {
 void add_portrait(MotionPicture& picture, const drive::ReducedDrive& reduced,
                   const drive::AttractorSearch& search, const StartPlane& plane,
                   const Basins* basins) {
-  const AngleUnit& angle = picture.angle;
+  const AngleUnit& angle = picture.drive.angle_unit;
   PhaseWindow window{
       .positions = {-angle.from_radians(plane.position), angle.from_radians(plane.position)},
       .speeds = {-angle.from_radians(plane.speed), angle.from_radians(plane.speed)},

@@ -22,7 +22,7 @@ namespace {
 NamedCurve response_of(const ComparedDrive& one, double until, const AngleUnit& angle) {
   if (!one.answer) return {.name = one.name + ": not reached"};
   if (!one.answer->step) return {.name = one.name + ": no step response"};
-  NamedCurve curve{.name = one.name + ": " + result_text(*one.answer, angle)};
+  NamedCurve curve{.name = one.name + ": " + result_text(*one.answer, one.drive)};
   Drive drive = one.drive;
   drive.reference = one.answer->step->step;
   const Motion motion = simulate(drive, {.until = until});
@@ -52,9 +52,9 @@ Plot plot_over_amplitude(const ToleranceReport& report, const char* title, PlotA
                          MapCurve line) {
   const double last = report.study.histogram.edges.back();
   Panel panel{.x = {.name = "amplitude of the limit cycle",
-                    .unit = report.angle.name,
+                    .unit = report.drive.nominal.angle_unit.name,
                     .low = 0.0,
-                    .high = report.angle.from_radians(last)},
+                    .high = report.drive.nominal.angle_unit.from_radians(last)},
               .y = std::move(percent)};
   add_curves({{.line = std::move(line)}}, 0.0, panel);
   return plot_of_run(report, title, std::move(panel));
@@ -66,7 +66,7 @@ Plot distribution_of(const ToleranceReport& report) {
   const double all = static_cast<double>(report.study.sampling.samples());
   MapCurve line;
   const auto add = [&](double edge, double percent) {
-    line.push_back({report.angle.from_radians(edge), percent});
+    line.push_back({report.drive.nominal.angle_unit.from_radians(edge), percent});
   };
   add(histogram.edges.front(), 0.0);
   for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
@@ -89,7 +89,7 @@ Plot yield_of(const ToleranceReport& report) {
   MapCurve line;
   double samples = static_cast<double>(histogram.quiet);
   const auto add = [&](double edge) {
-    line.push_back({report.angle.from_radians(edge), 100.0 * samples / all});
+    line.push_back({report.drive.nominal.angle_unit.from_radians(edge), 100.0 * samples / all});
   };
   add(0.0);
   add(histogram.edges.front());
@@ -119,13 +119,14 @@ std::vector<Bar> indices_of(const ToleranceReport& report) {
 Plot ceiling_plot(const AnswerReport& report) {
   const Ceiling& ceiling = *report.answer.ceiling;
   std::vector<Bar> bars = of_each(ceiling.terms, [&](const CeilingTerm& term) {
-    return Bar{.name = term.source, .value = report.angle.from_radians(term.load)};
+    return Bar{.name = term.source, .value = report.drive.angle_unit.from_radians(term.load)};
   });
   sort_by(bars, [](const Bar& bar) { return -bar.value; });
-  return plot_of("What the ceiling of the load is made of",
-                 "no motion exceeds " + swing_bound_text(*ceiling.load, report.angle, 4) +
-                     " in the end (proved)",
-                 bar_panel(bars, {.name = "term of the ceiling", .unit = report.angle.name}));
+  return plot_of(
+      "What the ceiling of the load is made of",
+      "no motion exceeds " + swing_bound_text(*ceiling.load, report.drive.angle_unit, 4) +
+          " in the end (proved)",
+      bar_panel(bars, {.name = "term of the ceiling", .unit = report.drive.angle_unit.name}));
 }
 
 std::optional<Plot> tornado_plot(const Jacobian& sensitivity) {
@@ -146,7 +147,7 @@ std::optional<Plot> tornado_plot(const Jacobian& sensitivity) {
 }
 
 Plot comparison_plot(const ComparisonReport& report) {
-  const AngleUnit& angle = report.angles.front();
+  const AngleUnit& angle = report.drives.front().drive.angle_unit;
   const double step = step_of(report).value_or(0.0);
   double until = 0.0;
   for (const ComparedDrive& one : report.drives) {

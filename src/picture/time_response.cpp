@@ -139,7 +139,7 @@ class TimeColumn {
                                           : widened(response_.positions, 0.05);
     for (const double end : {positions.low, positions.high}) range.include(end);
     Panel drawn = panel(is_relative_ ? "from the reference" : "position",
-                        response_.picture.angle.name, range, 270.0);
+                        response_.picture.drive.angle_unit.name, range, 270.0);
     if (half > 0.0) drawn.layers.push_back(layer_of(gap_style, std::move(around)));
     MapCurve edges;
     for (const double edge : encoder_edges(range)) append(at(edge), edges);
@@ -219,7 +219,8 @@ class TimeColumn {
         [](const DrawnPoint& point) { return point.motor_position - point.load_position; });
     Extent range = heights_of(gap);
     for (const double face : {-half, half}) range.include(face);
-    Panel drawn = panel("gap", response_.picture.angle.name, widened(range, 0.12), 120.0);
+    Panel drawn =
+        panel("gap", response_.picture.drive.angle_unit.name, widened(range, 0.12), 120.0);
     drawn.layers.push_back(layer_of(face_style, joined({at(-half), at(half)})));
     drawn.layers.push_back(layer_of(gap_line_style, std::move(gap)));
     return drawn;
@@ -283,7 +284,7 @@ class TimeColumn {
 /// "in the last third: load ±1.8 arcmin, motor ±3.4 arcmin".
 std::string end_line(const MotionPicture& picture, const ShownEnd& end) {
   const auto swing = [&](const Extent& extent) {
-    return "±" + significant(0.5 * extent.width(), 3) + " " + picture.angle.name;
+    return "±" + significant(0.5 * extent.width(), 3) + " " + picture.drive.angle_unit.name;
   };
   return "in the last third: load " + swing(end.load_third) + ", motor " + swing(end.motor_third);
 }
@@ -291,16 +292,17 @@ std::string end_line(const MotionPicture& picture, const ShownEnd& end) {
 Response response_of(const MotionPicture& picture) {
   const Motion& motion = picture.motions.front().motion;
   const drive::ReducedDrive reduced = reduce(picture.drive);
-  Response response{.picture = picture,
-                    .motion = motion,
-                    .pieces = legible_curve(picture, motion),
-                    .end_time = std::max(motion.end_time(), 1e-9),
-                    .gap = picture.angle.from_radians(reduced.backlash),
-                    .torque_limit = reduced.torque_limit,
-                    .encoder_step = picture.angle.from_radians(reduced.sensing.resolution),
-                    .encoder_share_of_load = reduced.sensing.load_share_of_position,
-                    .positions = {},
-                    .end = {}};
+  Response response{
+      .picture = picture,
+      .motion = motion,
+      .pieces = legible_curve(picture, motion),
+      .end_time = std::max(motion.end_time(), 1e-9),
+      .gap = picture.drive.angle_unit.from_radians(reduced.backlash),
+      .torque_limit = reduced.torque_limit,
+      .encoder_step = picture.drive.angle_unit.from_radians(reduced.sensing.resolution),
+      .encoder_share_of_load = reduced.sensing.load_share_of_position,
+      .positions = {},
+      .end = {}};
   for_each_point(response.pieces, [&](const DrawnPoint& point) {
     for (const double value :
          {point.load_position - 0.5 * response.gap, point.load_position + 0.5 * response.gap,

@@ -82,7 +82,7 @@ TEST(ServoFile, ReadsTheSampleProblem) {
   EXPECT_EQ(std::get<RigidContact>(drive.contact).restitution, 0.0);
   EXPECT_EQ(file.drivetrain, proportional_servo(drive).value().drivetrain);
   EXPECT_EQ(file.servo, normalize(*file.drivetrain));
-  EXPECT_EQ(file.backlash_unit, AngleUnit{});
+  EXPECT_EQ(file.backlash_unit.name, "rad");
   // Appendix B rounds every step to two or three digits.
   EXPECT_NEAR(file.servo.damping, 0.19, 0.005);
   EXPECT_NEAR(file.servo.inertia_ratio, 2.0, 0.05);

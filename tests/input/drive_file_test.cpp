@@ -95,7 +95,7 @@ struct ReadDrive {
 
 ReadDrive drive_of(const std::string& text, const std::filesystem::path& folder = ".") {
   const WrittenDrive written = parse_drive(text, "drive.toml", folder, {});
-  return {reduce(written.drive), written.drive.gearbox.ratio, written.angle};
+  return {reduce(written.drive), written.drive.gearbox.ratio, written.drive.angle_unit};
 }
 
 /// "place: field = value: permitted" of every fault.

@@ -25,7 +25,7 @@ struct ServoOfFile {
 inline std::optional<ServoOfFile> servo_of(const WrittenDrive& written) {
   const std::optional<ProportionalServo> closed = proportional_servo(written.drive);
   if (!closed) return std::nullopt;
-  ServoOfFile found{.servo = closed->servo, .backlash_unit = written.angle};
+  ServoOfFile found{.servo = closed->servo, .backlash_unit = written.drive.angle_unit};
   if (written.drive.servo) {
     found.natural_frequency = written.drive.servo->natural_frequency;
   } else {

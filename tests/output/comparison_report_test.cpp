@@ -30,7 +30,7 @@ ComparisonReport report() {
                  {.name = "second", .drive = drive, .answer = unstable, .encoder_step = degree},
                  {.name = "third", .drive = drive}};
   made.drives[0].drive.servo->natural_frequency = 3.0;
-  made.angles.assign(3, {"deg", degree});
+  made.drives[0].drive.angle_unit = {"deg", degree};
   made.quantities = {Quantity::motor_amplitude, Quantity::frequency, Quantity::phase_margin,
                      Quantity::overshoot};
   return made;
@@ -53,8 +53,8 @@ TEST(ComparisonReport, TextHasUnitsWhatIsUnknownAndWhatToKnow) {
   overshoot (%)                   25        –           –
 
 Not stable even without the gap: second. What happens there is not due to backlash alone,
-and a step response is left out. All make a step of 1 deg, settled within ±0 deg; it could
-not be followed to its end: first.
+and a step response is left out. All make a step of 1 deg, settled within ±0 deg; it is less
+than the gap of first: --step gives another; it could not be followed to its end: first.
 )");
 }
 

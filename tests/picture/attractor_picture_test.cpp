@@ -19,8 +19,7 @@ double shown_start(const std::vector<drive::Outcome>& outcomes) {
   drive::AttractorSearch search;
   search.outcomes = outcomes;
   search.swing_time = 0.1;
-  const MotionPicture picture =
-      hunting_picture("title", drive, reduce_settled(drive), search, AngleUnit{});
+  const MotionPicture picture = hunting_picture("title", drive, reduce_settled(drive), search);
   return picture.motions.at(0).motion.at(0.0).shafts.load_position;
 }
 

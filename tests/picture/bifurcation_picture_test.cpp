@@ -17,8 +17,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-const AngleUnit radians{};
-
 CycleAt at(double parameter, double amplitude) {
   return {.parameter = parameter,
           .amplitude = amplitude,
@@ -45,7 +43,7 @@ Grid grid_of(const char* path, double high = 4.0) {
 TEST(BifurcationPicture, EachThingHasOneName) {
   const std::string svg =
       draw(bifurcation_plot(diagram_with_fold(), grid_of("controller.proportional"),
-                            Quantity::amplitude, radians),
+                            Quantity::amplitude),
            PictureFormat::svg);
   for (const char* name : {"stable cycle", "unstable cycle", "can come to rest", "fold",
                            "something new", "border of running away"}) {
@@ -56,10 +54,10 @@ TEST(BifurcationPicture, EachThingHasOneName) {
 }
 
 TEST(BifurcationPicture, AnglesAreInTheUnitOfTheUser) {
-  const AngleUnit degrees{.name = "deg", .radians = 0.017453292519943295};
-  const std::string svg = draw(bifurcation_plot(diagram_with_fold(), grid_of("gearbox.backlash"),
-                                                Quantity::amplitude, degrees),
-                               PictureFormat::svg);
+  Grid grid = grid_of("gearbox.backlash");
+  grid.drive.angle_unit = {.name = "deg", .radians = 0.017453292519943295};
+  const std::string svg =
+      draw(bifurcation_plot(diagram_with_fold(), grid, Quantity::amplitude), PictureFormat::svg);
   EXPECT_THAT(svg, AllOf(HasSubstr("amplitude (deg)"), HasSubstr("gearbox backlash (deg)"),
                          HasSubstr(">20<"), HasSubstr(">200<"), Not(HasSubstr("(rad)"))));
 }
@@ -67,9 +65,9 @@ TEST(BifurcationPicture, AnglesAreInTheUnitOfTheUser) {
 TEST(BifurcationPicture, WideAmplitudesAreLogarithmicWithRestAtTheFoot) {
   BifurcationDiagram diagram = diagram_with_fold();
   diagram.irregular = {{.parameter = 1.5, .amplitude = 1e-4, .motor_amplitude = 1e-4}};
-  const std::string svg = draw(
-      bifurcation_plot(diagram, grid_of("controller.proportional"), Quantity::amplitude, radians),
-      PictureFormat::svg);
+  const std::string svg =
+      draw(bifurcation_plot(diagram, grid_of("controller.proportional"), Quantity::amplitude),
+           PictureFormat::svg);
   EXPECT_THAT(svg, AllOf(HasSubstr("10⁻⁴<"), HasSubstr("can come to rest"),
                          HasSubstr("motion that closes no cycle")));
 }
@@ -78,7 +76,7 @@ TEST(BifurcationPicture, PeriodsHaveNeitherRestNorIrregularMotion) {
   BifurcationDiagram diagram = diagram_with_fold();
   diagram.irregular = {{.parameter = 1.5, .amplitude = 0.1, .motor_amplitude = 0.1}};
   const std::string svg =
-      draw(bifurcation_plot(diagram, grid_of("controller.proportional"), Quantity::period, radians),
+      draw(bifurcation_plot(diagram, grid_of("controller.proportional"), Quantity::period),
            PictureFormat::svg);
   EXPECT_THAT(svg, AllOf(HasSubstr("period (s)"), HasSubstr("stable cycle"),
                          Not(HasSubstr("can come to rest")), Not(HasSubstr("closes no cycle"))));
@@ -87,10 +85,9 @@ TEST(BifurcationPicture, PeriodsHaveNeitherRestNorIrregularMotion) {
 }
 
 TEST(BifurcationPicture, NothingSaysSo) {
-  EXPECT_THAT(
-      draw(bifurcation_plot({}, grid_of("controller.proportional"), Quantity::amplitude, radians),
-           PictureFormat::svg),
-      HasSubstr("no cycle was found"));
+  EXPECT_THAT(draw(bifurcation_plot({}, grid_of("controller.proportional"), Quantity::amplitude),
+                   PictureFormat::svg),
+              HasSubstr("no cycle was found"));
 }
 
 }  // namespace

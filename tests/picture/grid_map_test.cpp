@@ -175,7 +175,7 @@ TEST(GridMap, IsDrawnInTheUnitOfAngles) {
                  {spaced_axis("y", "servo.damping", 0.1, 0.4, 5, Spacing::logarithmic),
                   spaced_axis("x", "servo.backlash", 1e-3, 2e-3, 5, Spacing::linear)}});
   const Plot radians = map_plot(table, Quantity::amplitude);
-  table.angle = {"arcmin", arcminute};
+  table.grid.drive.angle_unit = {"arcmin", arcminute};
   const Plot map = map_plot(table, Quantity::amplitude);
   EXPECT_EQ(map.title, "Amplitude of the load (arcmin)");
   const Panel& panel = panel_of(map);
@@ -205,7 +205,7 @@ TEST(GridChart, IsDrawnInTheUnitOfAngles) {
   GridTable table{.grid = grid, .table = worked_out(grid), .provenance = {}};
   const Plot radians = chart_plot(table, Quantity::amplitude);
   const MapPoint in_radians = panel_of(radians).layers.at(0).points.at(1);
-  table.angle = {"arcmin", 1e-3};
+  table.grid.drive.angle_unit = {"arcmin", 1e-3};
   const Plot chart = chart_plot(table, Quantity::amplitude);
   EXPECT_EQ(drawn_y(panel_of(chart)).name, "amplitude (arcmin)");
   const MapPoint point = panel_of(chart).layers.at(0).points.at(1);

@@ -29,7 +29,7 @@ Drive limited_drive() {
 }
 
 MotionPicture portrait_of(const Drive& drive, const Analysis& analysis, const Basins* basins) {
-  MotionPicture picture = attractor_picture("title", drive, analysis.reduced, *analysis.search, {});
+  MotionPicture picture = attractor_picture("title", drive, analysis.reduced, *analysis.search);
   const auto plane = plane_to_draw(picture, analysis.reduced, *analysis.search);
   if (!plane) throw std::runtime_error("no plane");
   add_portrait(picture, analysis.reduced, *analysis.search, *plane, basins);

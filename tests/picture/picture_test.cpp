@@ -33,8 +33,7 @@ Drive sample_drive(double restitution = 0.0) {
 }
 
 MotionPicture picture_of(const Drive& drive, double until) {
-  MotionPicture picture{
-      .title = "title", .drive = drive, .angle = {}, .period = 2.0 * std::numbers::pi};
+  MotionPicture picture{.title = "title", .drive = drive, .period = 2.0 * std::numbers::pi};
   picture.motions.push_back({.motion = simulate(drive, {.until = until})});
   return picture;
 }
@@ -131,7 +130,7 @@ TEST(Picture, LegendNamesWhatIsDrawn) {
 TEST(Picture, AxesAreInTheUnitOfTheBacklashAndInSeconds) {
   MotionPicture picture = sample_picture();
   picture.drive.servo->natural_frequency = 14.5;
-  picture.angle = {.name = "arcmin", .radians = 2.908882086657216e-4};
+  picture.drive.angle_unit = {.name = "arcmin", .radians = 2.908882086657216e-4};
   EXPECT_THAT(visible_text(draw(time_plot(picture), PictureFormat::svg)),
               testing::AllOf(HasSubstr("time (s)"), HasSubstr("position (arcmin)"),
                              HasSubstr("gap (arcmin)"), HasSubstr("torque (N m)")));
@@ -177,7 +176,7 @@ TEST(Picture, TheLegendTellsCyclesAndTheirShaftsApart) {
   search.cycles.push_back(search.cycles.front());
   search.cycles.back().amplitude *= 2.0;
   const drive::FoundCycle& cycle = search.cycles.front();
-  const MotionPicture picture = attractor_picture("title", drive, reduced, search, {});
+  const MotionPicture picture = attractor_picture("title", drive, reduced, search);
   ASSERT_EQ(picture.motions.size(), 2U);
   const DrawnMotion& first = picture.motions[0];
   const DrawnMotion& second = picture.motions[1];

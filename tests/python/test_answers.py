@@ -1,5 +1,6 @@
 import json
 import math
+import pickle
 
 import pytest
 
@@ -7,10 +8,10 @@ import gearlash
 
 
 def without_provenance(report):
-    """The report without what made it, and without the unit of angles in its text."""
+    """The report without what made it."""
     if isinstance(report, dict):
         return {key: without_provenance(value) for key, value in report.items()
-                if key not in ("provenance", "version", "command", "angle", "angles")}
+                if key not in ("provenance", "version", "command")}
     return [without_provenance(one) for one in report] if isinstance(report, list) else report
 
 
@@ -139,3 +140,21 @@ def test_a_search_that_keeps_little_of_a_motion_has_the_same_verdict(example):
     whole = gearlash.analyse(drive, borders=False)
     assert whole.verdict == "hunts"
     assert gearlash.analyse(drive, borders=False, motion_bytes=0).headline == whole.headline
+
+
+def test_a_headline_is_that_of_the_tool_in_the_unit_of_the_file(example, tool):
+    file = example("telescope-axis.toml")
+    drive = gearlash.Drive.from_toml(file)
+    answer = gearlash.analyse(drive)
+    assert " arcmin " in answer.headline
+    assert answer.headline == tool("limit-cycle", file, "--brief").strip()
+    friction = f"{drive['load.friction']!r} N m s/rad"
+    for same in (pickle.loads(pickle.dumps(drive)), drive.with_tolerances([]),
+                 drive.with_({"gearbox.backlash": drive["gearbox.backlash"]}),
+                 drive.with_({"load.friction": friction})):
+        assert same == drive and hash(same) == hash(drive)
+        assert gearlash._core.headline(same, answer) == answer.headline
+    degrees = drive.with_({"gearbox.backlash": "0.2 deg"})
+    assert " deg " in gearlash._core.headline(degrees, answer)
+    in_si = gearlash.Drive.from_toml(drive.to_toml())
+    assert in_si == drive and " rad " in gearlash._core.headline(in_si, answer)

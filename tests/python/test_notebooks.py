@@ -36,7 +36,7 @@ def figures(folder: Path) -> list[str]:
 
 def test_design_chart_has_the_border_of_hunting(tmp_path: Path) -> None:
     output = run("design_chart.py", str(tmp_path))
-    assert "hunts: ±0.00664 rad at 3.91 Hz" in output
+    assert "hunts: ±22.8 arcmin at 3.91 Hz" in output
     counts = {word: int(count) for word, count in re.findall(r"^([a-z ]+): (\d+) of 961", output,
                                                              re.M)}
     assert sum(counts.values()) == 961
@@ -51,6 +51,6 @@ def test_tolerance_study_gives_the_share_that_hunts(tmp_path: Path) -> None:
 
 def test_sensor_at_the_motor_brings_the_drive_to_rest(tmp_path: Path) -> None:
     output = run("sensor_before_or_after_the_gap.py", str(tmp_path))
-    assert "sensor at the load: hunts: ±0.00664 rad" in output
+    assert "sensor at the load: hunts: ±22.8 arcmin" in output
     assert "sensor at the motor: comes to rest" in output
     assert figures(tmp_path) == ["sensor-at-the-load.png", "sensor-at-the-motor.png"]

@@ -46,7 +46,7 @@ AnswerReport report_on(const WrittenDrive& drive) {
                                               .step = true,
                                               .borders = false,
                                               .causes = true});
-  return report_of(drive.drive, answer, drive.angle, {});
+  return report_of(drive.drive, answer, {});
 }
 
 bool has_note(const Answer& answer, const std::string& code) {

@@ -82,7 +82,7 @@ TEST(ReportedMotion, OfTheDrivesPageIsDecidedInLittleTime) {
   EXPECT_NEAR(*motion.mean_amplitude / arcmin, 18.999, 1e-3);
   EXPECT_NEAR(*motion.mean_period, 4.1850, 5e-4);
   const std::string text = to_text(drive, answer);
-  EXPECT_THAT(text, StartsWith("hunts: ±0.00556 rad at 0.239 Hz; comes to rest from "));
+  EXPECT_THAT(text, StartsWith("hunts: ±19.1 arcmin at 0.239 Hz; comes to rest from "));
   EXPECT_THAT(text, HasSubstr("runs away after steps from"));
   EXPECT_THAT(text, Not(HasSubstr("not seen to repeat")));
   // Of simulated time: a start that repeats, or joins a known motion, need not be watched on.
@@ -166,10 +166,10 @@ TEST(ReportedMotion, HasOneAmplitudeInEveryVerb) {
   EXPECT_THAT(answer_json(report), HasSubstr("\"amplitude_share\": 0"));
 }
 
-/// Small swings lie between its large ones: their mean is ±2.5e-4 rad.
+/// Small swings lie between its large ones: their mean is ±0.86 arcmin.
 TEST(ReportedMotion, OfSeveralSwingsAPeriodHasThePeakToPeakForAmplitude) {
   const Drive drive = drive_of("two-swings-of-one-load.toml");
-  EXPECT_THAT(headline(drive, analyse(drive)), HasSubstr("±0.000372 rad"));
+  EXPECT_THAT(headline(drive, analyse(drive)), HasSubstr("±1.28 arcmin"));
 }
 
 /// A ramp makes it irregular: later starts join the motion of the first, and are not watched on.

@@ -173,7 +173,7 @@ TEST(Headline, OfADriveThatWindsUpBeginsWithItsRest) {
   const Answer answer = analyse(drive);
   EXPECT_EQ(answer.verdict, Verdict::runs_away_if_disturbed);
   EXPECT_THAT(headline(drive, answer),
-              StartsWith("comes to rest, up to 0.00145 rad off; runs away after steps from "));
+              StartsWith("comes to rest, up to 5 arcmin off; runs away after steps from "));
   EXPECT_THAT(to_json(drive, answer), HasSubstr("\"verdict\": \"runs away if disturbed\""));
 }
 
@@ -183,7 +183,7 @@ TEST(TimeToRestInWords, IsInTheHeadlineFromAMinuteOn) {
   const Drive slow = drive_of(root / "tests/regression/data/ends/rests-after-minutes.toml");
   const Answer answer = analyse(slow);
   EXPECT_THAT(headline(slow, answer),
-              StartsWith("comes to rest, up to 0.000767 rad off, after up to "));
+              StartsWith("comes to rest, up to 2.64 arcmin off, after up to "));
   EXPECT_THAT(headline(slow, answer), HasSubstr(" min"));
   // A wider band is reached sooner.
   Drive tolerant = slow;

@@ -53,7 +53,7 @@ Reply written(const Of& reply) {
 MarginText text_of(const ParameterMargin& margin, const WrittenDrive& written,
                    const ShownUnits& units) {
   const Parameter& parameter = *parameter_of(Axis{.path = margin.parameter}, written.drive);
-  ParameterText words(written.drive, margin.parameter, written.angle);
+  ParameterText words(written.drive, margin.parameter);
   const ShownUnit unit = units.of(parameter);
   words.show_in(unit.name, unit.in_si);
   MarginText text{
@@ -111,7 +111,7 @@ ShownMotion motion_reply(const std::string& name, const MotionPicture& picture) 
   const Motion& motion = picture.motions.front().motion;
   ShownMotion shown{.name = name,
                     .time_unit = is_normalized(picture.drive) ? "1/ω_n" : "s",
-                    .gap = picture.angle.from_radians(reduce(picture.drive).backlash)};
+                    .gap = picture.drive.angle_unit.from_radians(reduce(picture.drive).backlash)};
   try {
     shown.plot = drawn(time_plot(picture));
     for_each_point(legible_curve(picture, motion), [&](const DrawnPoint& point) {
@@ -178,15 +178,15 @@ class Core::Session {
     const bool is_coarse = request.value("level", "fine") == "coarse";
     if (last_toml_ != text.toml) last_.reset();  // another drive
     const Analysis analysis = analysed(is_coarse, written, progress);
-    const AnswerReport report = report_of(written.drive, analysis.answer, written.angle, {});
+    const AnswerReport report = report_of(written.drive, analysis.answer, {});
     AnswerReply reply{.level = is_coarse ? Level::coarse : Level::fine,
                       .means = means_of(analysis, is_coarse),
                       .is_complete = !analysis.search || analysis.search->is_complete,
                       .headline = headline(report),
                       .report = is_coarse ? "" : answer_text(report),
                       .answer = report.answer,
-                      .unit = written.angle.name,
-                      .unit_in_si = written.angle.radians};
+                      .unit = written.drive.angle_unit.name,
+                      .unit_in_si = written.drive.angle_unit.radians};
     if (is_drawn(analysis)) {
       reply.motions = {motion_reply("the way there", response_picture(report, analysis))};
       add_cycles(phase_of(report, analysis, is_coarse, progress), reply);
@@ -222,8 +222,7 @@ class Core::Session {
   static MotionPicture phase_of(const AnswerReport& report, const Analysis& analysis,
                                 bool is_coarse, Progress& progress) {
     if (!is_coarse || analysis.closed) return phase_picture(report, analysis, progress);
-    return attractor_picture(headline(report), report.drive, analysis.reduced, *analysis.search,
-                             report.angle);
+    return attractor_picture(headline(report), report.drive, analysis.reduced, *analysis.search);
   }
 
   static MarginsReply margins(const Json& request, const DriveText& text,

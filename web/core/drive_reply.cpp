@@ -57,7 +57,8 @@ ShownUnit ShownUnits::of(const Parameter& parameter) const {
     } catch (const InvalidInput&) {  // written in another form: "43:1", a frequency for a period
     }
   }
-  if (dimension->unit == "rad") return {written_.angle.name, written_.angle.radians};
+  if (dimension->unit == "rad")
+    return {written_.drive.angle_unit.name, written_.drive.angle_unit.radians};
   return {std::string(dimension->unit), 1.0};
 }
 

@@ -17,7 +17,7 @@ namespace gearlash::web {
 namespace {
 
 MapAxis shown(const Axis& axis, const WrittenDrive& written) {
-  return {axis.path, drawn_unit(axis, written.drive, written.angle).size};
+  return {axis.path, drawn_unit(axis, written.drive).size};
 }
 
 Axis read(const char* field, const Json& request, const Drive& drive) {
@@ -40,8 +40,7 @@ void require_few(const Grid& grid) {
 MapReply map_reply(const Json& request, const WrittenDrive& written, Progress& progress) {
   GridTable table{
       .grid = {.drive = written.drive,
-               .axes = {read("y", request, written.drive), read("x", request, written.drive)}},
-      .angle = written.angle};
+               .axes = {read("y", request, written.drive), read("x", request, written.drive)}}};
   const Grid& grid = table.grid;
   require_none(faults(grid, {"y", "x"}));
   require_few(grid);
@@ -60,7 +59,7 @@ MapReply chart_reply(const Json& request, const WrittenDrive& written, Progress&
   const Grid grid{.drive = written.drive, .axes = {axis}};
   require_none(faults(grid, {"x"}));
   const BifurcationDiagram diagram = bifurcations_of(written.drive, axis, progress);
-  return {.plot = drawn(bifurcation_plot(diagram, grid, Quantity::amplitude, written.angle)),
+  return {.plot = drawn(bifurcation_plot(diagram, grid, Quantity::amplitude)),
           .x = shown(axis, written),
           .is_complete = diagram.is_complete};
 }

@@ -30,7 +30,7 @@ void require_sound(const gearlash::SweepFile& file) {
 }
 
 void require_sound(const gearlash::WrittenDrive& written) {
-  require(written.angle.radians > 0.0 && !written.angle.name.empty());
+  require(written.drive.angle_unit.radians > 0.0 && !written.drive.angle_unit.name.empty());
   require(gearlash::faults(written.drive).empty());
   if (const auto servo = gearlash::proportional_servo(written.drive)) {
     return require(gearlash::faults(servo->servo).empty() && servo->natural_frequency > 0.0);
