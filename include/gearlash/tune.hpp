@@ -23,7 +23,7 @@ namespace gearlash {
 enum class Aim : std::uint8_t {
   bandwidth,    ///< greatest: of the linear loop, to -3 dB
   settling,     ///< shortest: of a step, into 5 % of it
-  static_error  ///< least: the largest error at rest
+  static_error  ///< least: the largest error in the end, Quantity::error
 };
 
 struct TuneTask {

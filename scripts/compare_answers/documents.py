@@ -100,7 +100,7 @@ def limit_cycle(document):
     if specified is not None and answer["ceiling"]:
         load = answer["ceiling"]["load"]
         found["specification"] = {"widest_backlash": document["widest_backlash"],
-                                  "is_met": load is not None and load <= specified}
+                                  "is_met": load is not None and load <= specified["permitted"]}
     return {**found, "margin": margin(document),
             "sensitivities": sensitivities(document["sensitivity"])}
 
