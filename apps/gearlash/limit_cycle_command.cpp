@@ -89,11 +89,8 @@ void add_margins(Result& result, const Drive& drive, const std::vector<Axis>& ax
 }
 
 Result analysed(const WrittenDrive& written, const Provenance& provenance, LimitedWork& work) {
-  const Wanted wanted{.ceiling = true,
-                      .loop = true,
-                      .step = true,
-                      .causes = true,
-                      .motion_bytes = bytes_of_motion(work.limits())};
+  Wanted wanted = wanted_of_report;
+  wanted.motion_bytes = bytes_of_motion(work.limits());
   Result result{.analysis = analyse_in_full(written.drive, wanted,
                                             TerminalProgress(work, "Searching").as_argument())};
   result.report = report_of(written.drive, result.analysis.answer, provenance);

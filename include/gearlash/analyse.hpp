@@ -18,8 +18,8 @@ struct Wanted {
   bool ceiling = false;
   /// The linear loop: Answer::loop, bandwidth and phase margin.
   bool loop = false;
-  /// The response to Specification::step, for twenty swings of the linear loop: Answer::step. It
-  /// takes some milliseconds.
+  /// The response to Specification::step, until the load has arrived: Answer::step. It takes some
+  /// milliseconds.
   bool step = false;
   /// What lies between starts that end differently: unstable cycles, and from which step on a drive
   /// hunts (Answer::thresholds). The verdict does not need it.
@@ -30,6 +30,10 @@ struct Wanted {
   /// two to three times as many in all.
   std::size_t motion_bytes = 64'000'000;
 };
+
+/// All that the report of an answer tells, the same from every face.
+inline constexpr Wanted wanted_of_report{
+    .ceiling = true, .loop = true, .step = true, .causes = true};
 
 /// Uses the closed form if the drive is the servo of 1960 by its physics. Otherwise it simulates
 /// from several starts and closes cycles by shooting. Only the final value, ramp or sine of a

@@ -155,11 +155,9 @@ class Core::Session {
 
   /// Coarse: without proofs and borders; a search follows that of the drive before, or one start.
   Analysis analysed(bool is_coarse, const WrittenDrive& written, Progress& progress) {
-    Wanted wanted{
-        .proofs = !is_coarse, .ceiling = true, .borders = !is_coarse, .causes = !is_coarse};
-    if (!is_coarse) return analyse_in_full(written.drive, wanted, progress);
+    if (!is_coarse) return analyse_in_full(written.drive, wanted_of_report, progress);
     return analyse_in_full(
-        written.drive, wanted, progress,
+        written.drive, {.proofs = false, .ceiling = true, .borders = false}, progress,
         {.near = last_ ? &*last_ : nullptr, .is_enough = [](const drive::AttractorSearch& search) {
            return !search.outcomes.empty();
          }});
