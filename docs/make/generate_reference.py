@@ -324,7 +324,7 @@ def main():
 
     write(folder / "python.rst", python_page())
 
-    files = sorted(schemas.glob("*.schema.json"))
+    files = sorted(set(schemas.glob("*.schema.json")) - {schemas / "drive.schema.json"})
     for file in files:
         write(folder / "json" / f"{file.name.split('.')[0]}.md", schema_page(file))
     write(folder / "json" / "index.md", index_page(

@@ -1,4 +1,5 @@
-// Prints every parameter and quantity as JSON, from which the reference pages are made.
+// Prints every parameter and quantity as JSON, of which the schema of drive files and the reference
+// pages are made.
 #include <cstddef>
 #include <iostream>
 #include <map>
@@ -109,6 +110,11 @@ std::string unit_in(const Parameter& parameter, const Drive& drive) {
   return dimension == nullptr ? "" : std::string(dimension->unit);
 }
 
+std::string example_in(const Parameter& parameter, const Drive& drive) {
+  const Dimension* dimension = parameter.dimension(drive);
+  return dimension == nullptr ? "" : std::string(dimension->example);
+}
+
 /// The word of a choice; empty for a number.
 std::string word_in(const Parameter& parameter, Drive drive) {
   const Slot slot = parameter.slot(drive);
@@ -139,8 +145,8 @@ Dependence dependence_of(const Parameter& parameter, Drive drive) {
   return found;
 }
 
-std::string permitted(const Parameter& parameter) {
-  switch (parameter.permitted) {
+std::string permitted(const Parameter& parameter, Permitted values) {
+  switch (values) {
     case Permitted::positive:
       return "> 0";
     case Permitted::not_negative:
@@ -175,27 +181,43 @@ Json default_of(const Parameter& parameter, Drive& drive, const std::string& kin
   return nullptr;
 }
 
+/// The values that the number of another form may have.
+Permitted permitted(const OtherForm& form, Permitted parameter) {
+  if (form.relation == Relation::power_of_two) return Permitted::positive;
+  const bool has_reciprocal = form.relation == Relation::reciprocal;
+  return has_reciprocal && parameter == Permitted::not_negative ? Permitted::positive : parameter;
+}
+
 Json described(const Parameter& parameter, Drive drive) {
   const std::string kind = kind_of(parameter.slot(drive));
   const Dependence dependence = dependence_of(parameter, drive);
   Json aliases = Json::array();
   for (const OtherForm& form : parameter.other_forms) {
     const std::string unit = form.dimension == nullptr ? "" : std::string(form.dimension->unit);
-    aliases.push_back({{"path", std::string(form.path)}, {"unit", unit}});
+    aliases.push_back({{"path", std::string(form.path)},
+                       {"unit", unit},
+                       {"is_same", form.relation == Relation::same},
+                       {"permitted", permitted(parameter, permitted(form, parameter.permitted))}});
   }
   Json words = Json::array();
   for (const std::string& word : words_of(parameter)) words.push_back(word);
+  Json synonyms = Json::object();
+  for (const OtherWord& other : parameter.other_words) {
+    synonyms[std::string(other.word)] = std::string(parameter.choices[other.choice]);
+  }
   return {{"path", std::string(parameter.path)},
           {"kind", kind},
           {"meaning", std::string(parameter.meaning)},
           {"unit", unit_in(parameter, drive)},
+          {"example", example_in(parameter, drive)},
           {"units", dependence.units},
           {"defaults", dependence.defaults},
           {"exists_with", dependence.exists_with},
-          {"permitted", kind == "number" ? permitted(parameter) : ""},
+          {"permitted", kind == "number" ? permitted(parameter, parameter.permitted) : ""},
           {"required", parameter.is_required},
           {"default", default_of(parameter, drive, kind)},
           {"words", kind == "choice" ? words : Json::array()},
+          {"synonyms", synonyms},
           {"aliases", aliases},
           {"usual", {parameter.usual.low, parameter.usual.high}}};
 }
