@@ -18,6 +18,12 @@ class Member:
     comment: str
     is_computed: bool = False
 
+    @property
+    def unit(self) -> str:
+        """With which its comment begins; empty without."""
+        found = re.match(r"(rad/s|rad|s|Hz|N m|N|J|kg m²|kg|m)(?![\w/ ²])", self.comment)
+        return found[1] if found else ""
+
     def is_opened(self, struct: "Struct") -> bool:
         """Whether its own members stand in its place: what a document says of a drive, and how it
         was made."""

@@ -56,7 +56,7 @@ def main():
     for kind in ("members", "python", "types", "schema"):
         assert "extra_load" not in before[kind], kind
         assert "extra_load" in after[kind], kind
-    assert 'Member{"extra_load", &gearlash::made_up::Cart::extra_load}' in after["members"]
+    assert 'Member{"extra_load", &gearlash::made_up::Cart::extra_load, "kg"}' in after["members"]
     assert "    extra_load: float | None = None" in after["python"]
     assert "  /** kg, on top */\n  extra_load: number | null;" in after["types"]
     assert json.loads(after["schema"])["properties"]["extra_load"]["description"] == "kg, on top."
