@@ -150,9 +150,9 @@ class Schema:
             own = names[0][0]
             others = {section for section, _ in names} - {own, "loop", *FORMS_OF_ROBOTS}
             is_of_points = parameter["kind"] == "list" and own != "controller"
-            if not parameter["required"] or others or is_of_points:
+            if not parameter["is_required"] or others or is_of_points:
                 continue
-            for section in {own, "loop"} & {section for section, _ in names}:
+            for section in sorted({own, "loop"} & {section for section, _ in names}):
                 keys = [key for of, key in names if of == section]
                 if parameter["kind"] == "file":  # or the points themselves
                     keys.append("times")

@@ -30,8 +30,8 @@ def toml_of(drive):  # JSON writes numbers, texts and lists as TOML does
 
 
 def usual(rng, parameter):
-    low, high = parameter["usual"]
-    return f"{rng.uniform(low, high):.3g} {parameter['unit']}".strip()
+    value = rng.uniform(parameter["usual_low"], parameter["usual_high"])
+    return f"{value:.3g} {parameter['unit'] or ''}".strip()
 
 
 def random_options(rng, parameters):
@@ -44,7 +44,7 @@ def random_options(rng, parameters):
             word = rng.choice(parameter["words"])
             options.append((parameter["path"], word))
             options += [(other["path"], usual(rng, other)) for other in parameters
-                        if other["required"] and other["kind"] == "number"
+                        if other["is_required"] and other["kind"] == "number"
                         and word in other["exists_with"].get(parameter["path"], [])]
     return [f"--set={path}={value}" for path, value in options]
 
@@ -61,7 +61,7 @@ def mutated(rng, drive, parameters):
         key = key[:place] + key[place + 1:] or "x"
         drive[section][key] = value
     elif fault == "of another drive":
-        other = rng.choice([one for one in parameters if one["usual"][0] != one["usual"][1]])
+        other = rng.choice([one for one in parameters if one["usual_high"] > one["usual_low"]])
         section, key = other["path"].split(".")
         if section not in drive:
             return None
