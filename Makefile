@@ -200,13 +200,13 @@ shown: tool
 docs: tool  ## write the pages of docs as HTML: build/docs/html/index.html
 	@$(INSTALL) docs python
 	@cmake --preset release -DGEARLASH_BUILD_PYTHON=ON
-	@$(BUILD) release --target list_parameters --target gearlash_python_package
-	docs/make/build $(TOOL) $(RELEASE)/docs/make/list_parameters $(RELEASE)/python $(RELEASE)/schemas
+	@$(BUILD) release --target gearlash_drive_schema --target gearlash_python_package
+	docs/make/build $(TOOL) $(RELEASE)/records/parameters.json $(RELEASE)/python $(RELEASE)/schemas
 
 docs-check: docs  ## dead links, spelling and long sentences in the pages
 	/usr/bin/python3 docs/make/check_pages.py build/docs/source/docs/reference/generated
 
-FORMAT := find include src apps python web/core tests benchmarks examples docs -name '*.[ch]pp' \
+FORMAT := find include src apps python web/core tests benchmarks examples records -name '*.[ch]pp' \
             -exec clang-format-16
 
 format:  ## lay out all C++ as .clang-format says

@@ -25,8 +25,9 @@ def words_text(enumeration: Enumeration) -> str:
 
 
 def other(member: Member) -> str:
-    """Python's name where that is another one."""
-    return f', "{python_name(member)}"' if keyword.iskeyword(member.name) else ""
+    """Its unit, and Python's name where that is another one."""
+    unit = f', "{member.unit}"' if member.unit or keyword.iskeyword(member.name) else ""
+    return unit + (f', "{python_name(member)}"' if keyword.iskeyword(member.name) else "")
 
 
 def record_text(struct: Struct) -> str:

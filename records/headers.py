@@ -18,6 +18,12 @@ class Member:
     comment: str
     is_computed: bool = False
 
+    @property
+    def unit(self) -> str:
+        """With which its comment begins; empty without."""
+        found = re.match(r"(rad/s|rad|s|Hz|N m|N|J|kg m²|kg|m)(?![\w/ ²])", self.comment)
+        return found[1] if found else ""
+
     def is_opened(self, struct: "Struct") -> bool:
         """Whether its own members stand in its place: what a document says of a drive, and how it
         was made."""
@@ -26,6 +32,7 @@ class Member:
 
 @dataclass
 class Struct:
+    header: Path
     name: str
     namespace: str
     comment: str
@@ -50,6 +57,7 @@ class Struct:
 
 @dataclass
 class Enumeration:
+    header: Path
     name: str
     namespace: str
     members: list[str]
@@ -59,6 +67,7 @@ class Enumeration:
 
 @dataclass
 class Variant:
+    header: Path
     namespace: str
     kinds: list[str]
 
@@ -71,6 +80,16 @@ class Source:
     enumerations: dict[str, Enumeration] = field(default_factory=dict)
     variants: dict[str, Variant] = field(default_factory=dict)
     aliases: dict[str, str] = field(default_factory=dict)
+    ambiguous: set[str] = field(default_factory=set)
+
+    def all_types(self) -> dict[str, "Struct | Enumeration | Variant"]:
+        return {**self.structs, **self.enumerations, **self.variants}
+
+    def add(self, to: dict, name: str, of: "Struct | Enumeration | Variant") -> None:
+        """Types of one name in two namespaces cannot be told apart."""
+        if name in to and to[name].namespace != of.namespace:
+            self.ambiguous.add(name)
+        to[name] = of
 
 
 def plain(name: str) -> str:
@@ -175,20 +194,23 @@ def namespace_at(header: str, place: int) -> str:
     return [name for name in opened if opened.count(name) > closed.count(name)][-1]
 
 
-def read(header: str, source: Source) -> None:
+def read(path: Path, source: Source) -> None:
+    header = path.read_text(encoding="utf-8")
     above = r"((?:^///[^\n]*\n)*)"
     for match in re.finditer(rf"{above}^struct (\w+) {{\n(.*?)^}};", header, re.M | re.S):
         comment, name, body = match.groups()
-        source.structs[name] = Struct(name, namespace_at(header, match.start()),
-                                      comment_of(comment.splitlines()), body)
+        source.add(source.structs, name, Struct(path, name, namespace_at(header, match.start()),
+                                                comment_of(comment.splitlines()), body))
     for match in re.finditer(r"^enum class (\w+)[^{;]*\{([^}]*)\};", header, re.M):
         name, body = match.groups()
         members = re.findall(r"\w+", re.sub("//.*", "", body))
-        source.enumerations[name] = Enumeration(name, namespace_at(header, match.start()), members,
-                                                list(members))
+        source.add(source.enumerations, name,
+                   Enumeration(path, name, namespace_at(header, match.start()), members,
+                               list(members)))
     for match in re.finditer(r"^using (\w+) =\s+std::variant<([^;]*)>;", header, re.M):
-        source.variants[match[1]] = Variant(namespace_at(header, match.start()),
-                                            [kind.strip() for kind in split(match[2])])
+        source.add(source.variants, match[1],
+                   Variant(path, namespace_at(header, match.start()),
+                           [kind.strip() for kind in split(match[2])]))
     for name, of in re.findall(r"^using (\w+) = (std::(?!variant)[^;]*);", header, re.M):
         source.aliases[name] = of
     for above, name in re.findall(rf"{above}[^\n]*name_of\((\w+) ", header, re.M):
@@ -220,6 +242,8 @@ def needed(source: Source, roots: list[str]) -> set[str]:
         name = plain(name)
         if name in found or name == "Drive":  # which is written by its parameters
             continue
+        if name in source.ambiguous:
+            raise SystemExit(f"{name} is declared in two namespaces")
         found.add(name)
         if name in source.structs:
             todo += [member.type for member in source.structs[name].all_members]
@@ -236,11 +260,35 @@ def part_of(source: Source, names: set[str]) -> Source:
                     (source.structs, source.enumerations, source.variants, source.aliases)))
 
 
-def read_all(headers: list[Path]) -> Source:
-    source = Source()
+PROJECT = Path(__file__).resolve().parent.parent
+
+
+def is_public(header: Path) -> bool:
+    return header.parent.name == "gearlash" and header.parent.parent.name == "include"
+
+
+def read_all(headers: list[Path]) -> tuple[Source, list[Path]]:
+    """What the headers and those that they include declare, and all that were read: a header stands
+    after those that it includes."""
+    read_ones: list[Path] = []
+
+    def add(header: Path) -> None:
+        if header in visited:
+            return
+        visited.add(header)
+        for name in re.findall(r'^#include "([^"]+)"', header.read_text(encoding="utf-8"), re.M):
+            for folder in (PROJECT / "include", PROJECT / "src"):
+                if (folder / name).exists():
+                    add(folder / name)
+        read_ones.append(header)
+
+    visited: set[Path] = set()
     for header in headers:
-        read(header.read_text(encoding="utf-8"), source)
-    return source
+        add(header)
+    source = Source()
+    for header in read_ones:
+        read(header, source)
+    return source, read_ones
 
 
 def write(path: Path, text: str) -> None:

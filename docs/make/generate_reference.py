@@ -83,19 +83,19 @@ def permitted_of(parameter):
 
 
 def default_of(parameter):
-    if parameter["required"]:
+    if parameter["is_required"]:
         return "**required**"
     for path, defaults in parameter["defaults"].items():
         return "; ".join(f"{code(word)} ({key(path)} = {', '.join(others)})"
                          for word, others in defaults.items())
-    default = parameter["default"]
+    default = parameter["otherwise"]
     if default is None:
         return "none"
     return number(default) if isinstance(default, (int, float)) else code(default)
 
 
 def usual_of(parameter):
-    low, high = parameter["usual"]
+    low, high = parameter["usual_low"], parameter["usual_high"]
     return "–" if low == high else f"{number(low)} … {number(high)}"
 
 
@@ -324,7 +324,7 @@ def main():
 
     write(folder / "python.rst", python_page())
 
-    files = sorted(schemas.glob("*.schema.json"))
+    files = sorted(set(schemas.glob("*.schema.json")) - {schemas / "drive.schema.json"})
     for file in files:
         write(folder / "json" / f"{file.name.split('.')[0]}.md", schema_page(file))
     write(folder / "json" / "index.md", index_page(

@@ -52,9 +52,9 @@ struct MotionEvent {
   double time = 0.0;                    ///< s
   std::string_view what{};              ///< "faces part", "impact forward", "motor stops", …
   std::string_view mode_after{};        ///< "apart", "forward; motor sticks", …
+  std::optional<double> energy_lost{};  ///< J, at an impact; closed form only
   Shafts before{};                      ///< just before it
   Shafts after{};                       ///< just after it
-  std::optional<double> energy_lost{};  ///< J, at an impact; closed form only
 };
 
 /// A moment at which rounding decides whether an event occurs; events() has one of the two

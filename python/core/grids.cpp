@@ -4,6 +4,7 @@
 #include "arrays.hpp"
 #include "base/fault.hpp"
 #include "base/lists.hpp"
+#include "base/overloaded.hpp"
 #include "define.hpp"
 #include "gearlash/grid.hpp"
 #include "gearlash/version.hpp"
@@ -76,34 +77,34 @@ py::tuple evaluated_list(py::handle drive, const std::vector<std::string>& paths
       quantities);
 }
 
-using namespace py::literals;
-
-/// With a further entry of that name.
-py::dict dict_of(const NamedParameter& parameter, const char* name, const py::object& further) {
-  return py::dict("name"_a = parameter.name, "path"_a = parameter.path,
-                  "meaning"_a = parameter.meaning, "unit"_a = parameter.unit,
-                  "words"_a = py::str(parameter.words).attr("split")(), py::arg(name) = further);
+py::dict dict_of(const std::vector<NetcdfAttribute>& attributes) {
+  py::dict dict;
+  for (const NetcdfAttribute& attribute : attributes) {
+    dict[py::str(attribute.name)] = std::visit(
+        Overloaded{[](const std::vector<signed char>& flags) -> py::object {
+                     return array_of(std::vector<std::int8_t>(flags.begin(), flags.end()));
+                   },
+                   [](const auto& value) { return to_python(value); }},
+        attribute.value);
+  }
+  return dict;
 }
 
-/// What the tool's NetCDF files say of the grid.
-py::dict description(py::handle drive, py::handle axes, bool proved) {
-  const Grid grid = grid_of(drive, axes, proved);
-  py::list described;
-  for (const Axis& axis : grid.axes) {
-    described.append(
-        dict_of(named_parameter(axis, grid.drive), "spacing", py::str(spacing_of(axis))));
+/// What the tool's NetCDF files say of the grid: its attributes, and for each variable its
+/// dimensions, attributes and values, if it has them.
+py::tuple description(py::handle drive, py::handle axes, py::handle names, bool proved) {
+  const NetcdfDescription of = description_of({.grid = grid_of(drive, axes, proved),
+                                               .quantities = quantities_named(names),
+                                               .provenance = {"gearlash.sweep", version}},
+                                              {});
+  py::dict variables;
+  for (const NetcdfVariable& variable : of.variables) {
+    const auto dimensions =
+        of_each(variable.dimensions, [&](std::size_t index) { return of.dimensions[index].name; });
+    variables[py::str(variable.name)] = py::make_tuple(
+        to_python(dimensions), dict_of(variable.attributes), array_of(variable.values));
   }
-  py::list fixed;
-  for (const FixedNumber& number : fixed_numbers(grid)) {
-    fixed.append(dict_of(number.parameter, "value", py::float_(number.value)));
-  }
-  py::dict attributes;
-  const Provenance provenance{.command = "gearlash.sweep", .version = version};
-  for (const auto& [name, text] : attributes_of_file({grid, {}, provenance})) {
-    attributes[py::str(name)] = text;
-  }
-  return py::dict("axes"_a = described, "fixed"_a = fixed, "attributes"_a = attributes,
-                  "verdicts"_a = verdict_words());
+  return py::make_tuple(dict_of(of.attributes), variables);
 }
 
 }  // namespace

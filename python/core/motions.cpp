@@ -39,18 +39,24 @@ py::dict at(const Motion& motion, const Numbers& times) {
       interruptible(py::none(), [&](Progress& reports) { return motion.at(given, reports); }));
 }
 
-/// One tuple for each event, in the order of the fields of gearlash._motion.EVENT.
+/// One tuple for each event, in the order of names_of_leaves().
 py::list events(const Motion& motion) {
   py::list rows;
   for (const MotionEvent& event : motion.events()) {
-    rows.append(py::make_tuple(
-        event.time, std::string(event.what), std::string(event.mode_after),
-        event.before.load_position, event.before.load_speed, event.before.motor_position,
-        event.before.motor_speed, event.after.load_position, event.after.load_speed,
-        event.after.motor_position, event.after.motor_speed,
-        event.energy_lost.value_or(std::numeric_limits<double>::quiet_NaN())));
+    py::list row;
+    records::for_each_leaf(
+        event, [&](const auto&, const char*, const auto& value) { row.append(to_python(value)); });
+    rows.append(py::tuple(row));
   }
   return rows;
+}
+
+py::list names_of_leaves() {
+  py::list names;
+  records::for_each_leaf(MotionEvent{}, [&](const auto& member, const char* holder, const auto&) {
+    names.append(leaf_name(member, holder));
+  });
+  return names;
 }
 
 std::vector<std::string> modes_at(const Motion& motion, const Numbers& times) {
@@ -76,6 +82,7 @@ void add_motions(py::module_& module) {
       .def_property_readonly("stop_text", &Motion::stop_text)
       .def_property_readonly("engine",
                              [](const Motion& motion) { return to_python(motion.engine()); });
+  module.attr("FIELDS_OF_EVENTS") = names_of_leaves();
   module.def("simulate", simulated, py::call_guard<LongCall>());
 }
 

@@ -15,11 +15,8 @@ from gearlash._drive import Drive
 from gearlash._records import EnergyBooks, Engine, MotionStop, MotionTouch, Start
 
 #: The fields of :attr:`Motion.events`.
-EVENT = np.dtype([("time", "f8"), ("what", "U48"), ("mode_after", "U80"),
-                  ("load_position_before", "f8"), ("load_speed_before", "f8"),
-                  ("motor_position_before", "f8"), ("motor_speed_before", "f8"),
-                  ("load_position", "f8"), ("load_speed", "f8"), ("motor_position", "f8"),
-                  ("motor_speed", "f8"), ("energy_lost", "f8")])
+EVENT = np.dtype([(name, {"what": "U48", "mode_after": "U80"}.get(name, "f8"))
+                  for name in _core.FIELDS_OF_EVENTS])
 
 
 class Samples(Mapping[str, NDArray[np.float64]]):
@@ -104,7 +101,8 @@ class Motion:
     def events(self) -> NDArray[np.void]:
         """The events as a structured array of time, what, mode_after, states before and after.
 
-        Ticks of a computer's clock are not events. ``energy_lost`` is nan where it is not known.
+        A state is ``load_position_before``, ``load_position_after`` and so on. Ticks of a
+        computer's clock are not events. ``energy_lost`` is nan where it is not known.
         """
         return np.array(self._core.events(), dtype=EVENT)
 

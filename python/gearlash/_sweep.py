@@ -283,58 +283,54 @@ def _sweep_arrays(drive: Drive, arrays: Mapping[str, ArrayLike], quantities: Seq
     if flat and flat[0].size == 0:
         raise ValueError(f"arrays must have at least one element; they have the shape {shape}")
     verdicts, columns = _core.evaluate_list(drive, list(given), flat, quantities, progress)
-    about = _core.description(drive, [Axis(path, column[:1]) for path, column
-                                      in zip(given, flat)], False)
+    one_of_each = [Axis(path, column[:1]) for path, column in zip(given, flat)]
+    about = _core.description(drive, one_of_each, _named(columns), False)
     dims = tuple(f"dim_{i}" for i in range(len(shape)))
-    coords = {info["name"]: (dims, np.broadcast_to(array, shape), _described(info))
-              for info, array in zip(about["axes"], given.values())}
-    return _made(about, dims, coords, shape, verdicts, columns)
+    values = [np.broadcast_to(array, shape) for array in given.values()]
+    return _made(about, dims, [(dims, array) for array in values], shape, verdicts, columns)
 
 
 def dataset(drive: Drive, axes: Sequence[Axis], verdicts: NDArray[np.int8],
             columns: Mapping[str, NDArray[np.float64]], *, proved: bool = False
             ) -> xarray.Dataset | Any:
     """Make the result of a sweep from flat columns, in the order of the grid."""
-    about = _core.description(drive, axes, proved)
-    coords: dict[str, _Coordinate] = {}
-    for one, info in zip(axes, about["axes"]):
-        words = info["words"]
-        values = (np.array([words[int(value)] for value in one.values]) if words
-                  else np.array(one.values))
-        coords[info["name"]] = ((info["name"],), values,
-                                {**_described(info), "spacing": info["spacing"]})
-    return _made(about, tuple(coords), coords, tuple(len(one.values) for one in axes), verdicts,
-                 columns)
+    about = _core.description(drive, axes, _named(columns), proved)
+    dims = tuple(about[1])[:len(axes)]
+    coords = [((name,), np.array(one.values)) for name, one in zip(dims, axes)]
+    shape = tuple(len(one.values) for one in axes)
+    return _made(about, dims, coords, shape, verdicts, columns)
 
 
-#: Dimensions, values and attributes, as xarray takes them.
-_Coordinate = tuple[tuple[str, ...], NDArray[Any], dict[str, str]]
+def _named(columns: Mapping[str, NDArray[np.float64]]) -> list[str]:
+    """The quantities besides the verdict, which all data have."""
+    return [name for name in columns if name != "verdict"]
 
 
-def _described(info: Mapping[str, Any]) -> dict[str, str]:
-    return {"units": info["unit"], "long_name": info["meaning"], "path": info["path"]}
-
-
-def _made(about: Mapping[str, Any], dims: tuple[str, ...], coords: dict[str, _Coordinate],
-          shape: tuple[int, ...], verdicts: NDArray[np.int8],
-          columns: Mapping[str, NDArray[np.float64]]) -> xarray.Dataset | Any:
-    shaped = {name: column.reshape(shape) for name, column in columns.items() if name != "verdict"}
-    codes = verdicts.reshape(shape)
+def _made(about: tuple[dict[str, Any], dict[str, _core._Variable]], dims: tuple[str, ...],
+          varied: Sequence[tuple[tuple[str, ...], NDArray[Any]]], shape: tuple[int, ...],
+          verdicts: NDArray[np.int8], columns: Mapping[str, NDArray[np.float64]]
+          ) -> xarray.Dataset | Any:
+    """The data as the tool's files describe them. `varied`: dimensions and values of the axes."""
+    attributes, described = about
+    of_file = ("coordinates", "missing_value")  # which xarray writes by itself
+    attrs = {name: {key: value for key, value in of.items() if key not in of_file}
+             for name, (_, of, _) in described.items()}
+    coords = dict(zip(described, varied))
+    for name, (among, values) in coords.items():
+        if words := attrs[name].pop("words", "").split():
+            coords[name] = (among, np.array(words)[values.astype(int)])
+    data: dict[str, NDArray[Any]] = {"verdict": verdicts.reshape(shape)}
+    data |= {name: columns[name].reshape(shape) for name in _named(columns)}
     try:
         import xarray
     except ImportError:
-        named = np.array(_core.words()["Verdict"])[codes]
-        return Table(dims, {name: values for name, (_, values, _) in coords.items()},
-                     {**shaped, "verdict": named})
-    flags = {"flag_values": np.arange(len(about["verdicts"]), dtype=np.int8),
-             "flag_meanings": " ".join(about["verdicts"]), "long_name": "verdict on the drive"}
-    facts = {info.name: info for info in _core.quantities()}
-    variables: dict[str, Any] = {"verdict": (dims, codes, flags)}
-    for name, column in shaped.items():
-        variables[name] = (dims, column, {"units": facts[name].unit,
-                                          "long_name": facts[name].meaning})
-    fixed = {info["name"]: ((), info["value"], _described(info)) for info in about["fixed"]}
-    return xarray.Dataset(variables, coords={**coords, **fixed}, attrs=about["attributes"])
+        data["verdict"] = np.array(_core.words()["Verdict"])[data["verdict"]]
+        return Table(dims, {name: values for name, (_, values) in coords.items()}, data)
+    fixed = {name: ((), values[0], attrs[name]) for name, (among, _, values) in described.items()
+             if not among}
+    return xarray.Dataset({name: (dims, values, attrs[name]) for name, values in data.items()},
+                          {**{name: (*of, attrs[name]) for name, of in coords.items()}, **fixed},
+                          attributes)
 
 
 def verdict_words(data: xarray.Dataset | Table) -> NDArray[np.str_]:

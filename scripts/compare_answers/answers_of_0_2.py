@@ -301,8 +301,17 @@ def value_of(text):
         return text
 
 
+UNIT = re.compile(r"_(1|s|Hz|J|A|V|H|ohm|kg_m2|N_m|rad)(_s2?)?(_per_\w+)?$")
+
+
+def name_of_column(name):
+    """Without its unit, which tables of 0.2 have of motions alone."""
+    return UNIT.sub("", name)
+
+
 def grid_of_csv(rows):
     header, *rows = rows
+    header = list(map(name_of_column, header))
     count = header.index("verdict")
     columns = {name: [value_of(row[i]) for row in rows] for i, name in enumerate(header)}
     return {"axes": {name: list(dict.fromkeys(columns[name])) for name in header[:count]},
@@ -357,13 +366,10 @@ def motion(answer):
             "events": events}
 
 
-UNITS_OF_COLUMNS = re.compile(r"_(s|rad|rad_per_s|N_m)$")
-
-
 def table_of_motion(rows):
     header, *rows = rows
-    return {"samples": {UNITS_OF_COLUMNS.sub("", name): [value_of(row[i]) for row in rows]
-                        for i, name in enumerate(header)}}
+    return {"samples": {name_of_column(name): [value_of(row[i]) for row in rows]
+                        for i, name in enumerate(header) if name != "is_apart"}}
 
 
 def events_of_table(rows):

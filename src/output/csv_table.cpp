@@ -1,5 +1,6 @@
 #include "output/csv_table.hpp"
 
+#include <cctype>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -44,6 +45,17 @@ void CsvTable::end_row() {
   sink_(line_);
   line_.clear();
   cells_ = 0;
+}
+
+std::string column_in(std::string_view unit, std::string name) {
+  if (unit.empty() || unit == "1") return name;
+  name += '_';
+  for (const char c : unit) {
+    if (c == '/') name += "_per_";
+    if (c == ' ') name += '_';
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0) name += c;
+  }
+  return name;
 }
 
 }  // namespace gearlash

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "output/output_file.hpp"
+#include "output/record.hpp"
 
 namespace gearlash {
 
@@ -46,5 +47,23 @@ class CsvTable {
   std::size_t columns_ = 0;
   std::size_t cells_ = 0;  ///< of the current row
 };
+
+/// "motor_speed_rad_per_s": the name of a column with its SI unit; a bare number has none.
+std::string column_in(std::string_view unit, std::string name);
+
+/// A column for each number and text of a struct.
+template <class Row>
+void write_csv(const RowsOf<Row>& rows, const TextSink& sink) {
+  std::vector<std::string> columns;
+  records::for_each_leaf(Row{}, [&](const auto& member, const char* holder, const auto&) {
+    columns.push_back(column_in(member.unit, leaf_name(member, holder)));
+  });
+  CsvTable table(sink, columns);
+  rows.each([&](const Row& row) {
+    records::for_each_leaf(row,
+                           [&](const auto&, const char*, const auto& value) { table.cell(value); });
+    table.end_row();
+  });
+}
 
 }  // namespace gearlash

@@ -1,7 +1,5 @@
 #include "output/grid_description.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -10,37 +8,38 @@
 #include <utility>
 
 #include "base/lists.hpp"
-#include "gearlash/parameter.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/grid_table.hpp"
 #include "output/json_writer.hpp"
 #include "question/family/evaluation.hpp"
 
 namespace gearlash {
-NamedParameter named_parameter(const Axis& axis, const Drive& drive) {
-  const Parameter& parameter = *parameter_of(axis, drive);
-  const std::string unit = unit_of(axis, drive);
-  return {.name = column_name(axis.path),
-          .path = axis.path,
-          .meaning = std::string(parameter.meaning),
-          .unit = unit.empty() ? "1" : unit,
-          .words = fmt::format("{}", fmt::join(parameter.choices, " "))};
+
+std::string boundary_name(const Axis& axis) { return "hunting_boundary_" + column_name(axis.path); }
+
+namespace {
+
+constexpr std::array target_words = {PlaceKind::not_known, PlaceKind::missed, PlaceKind::met};
+
+/// "cannot hunt" is "cannot_hunt", as the words of flags must be.
+std::string one_word(std::string_view words) {
+  std::string word(words);
+  std::replace(word.begin(), word.end(), ' ', '_');
+  return word;
 }
 
-std::string spacing_of(const Axis& axis) { return axis.logarithmic ? "logarithmic" : "linear"; }
-
-std::vector<FixedNumber> fixed_numbers(const Grid& grid) {
-  std::vector<FixedNumber> fixed;
-  for (const auto& [path, value] : fixed_parameters(grid)) {
-    if (!std::holds_alternative<double>(value)) continue;
-    fixed.push_back({named_parameter(Axis{.path = path}, grid.drive), get(grid.drive, path)});
+std::vector<std::string> verdict_words() {
+  std::vector<std::string> words;
+  for (int number = 0; number <= static_cast<int>(Verdict::undecided); ++number) {
+    words.push_back(one_word(name_of(static_cast<Verdict>(number))));
   }
-  return fixed;
+  return words;
 }
 
-std::vector<std::pair<std::string, std::string>> attributes_of_file(const GridContents& contents) {
+/// The same for equal contents.
+std::vector<NetcdfAttribute> attributes_of_file(const GridContents& contents) {
   const Grid& grid = contents.grid;
-  std::vector<std::pair<std::string, std::string>> attributes = {
+  std::vector<NetcdfAttribute> attributes = {
       {"Conventions", "CF-1.8"},
       {"title", "What geared drives with backlash end in"},
       {"source", "gearlash " + contents.provenance.version},
@@ -51,15 +50,9 @@ std::vector<std::pair<std::string, std::string>> attributes_of_file(const GridCo
                       ? "SI units, with an undamped natural frequency of 1 rad/s and a loop "
                         "stiffness of 1 N m/rad."
                       : "SI units."}};
-  if (!contents.source_text.empty()) attributes.emplace_back("sweep", contents.source_text);
+  if (!contents.source_text.empty()) attributes.push_back({"sweep", contents.source_text});
   return attributes;
 }
-
-std::string boundary_name(const Axis& axis) { return "hunting_boundary_" + column_name(axis.path); }
-
-namespace {
-
-constexpr std::array target_words = {PlaceKind::not_known, PlaceKind::missed, PlaceKind::met};
 
 NetcdfVariable numbers(std::string name, std::vector<std::size_t> dimensions, std::string meaning,
                        std::string unit) {
@@ -82,19 +75,42 @@ NetcdfVariable flags(std::string name, std::vector<std::size_t> dimensions, std:
                          {"long_name", std::move(meaning)}}};
 }
 
+/// The parameter of an axis under its own name.
+NetcdfVariable parameter(const Axis& axis, const Drive& drive,
+                         std::vector<std::size_t> dimensions) {
+  const std::string unit = unit_of(axis, drive);
+  const Parameter& of = *parameter_of(axis, drive);
+  NetcdfVariable variable = numbers(column_name(axis.path), std::move(dimensions),
+                                    std::string(of.meaning), unit.empty() ? "1" : unit);
+  variable.attributes.push_back({"path", axis.path});
+  if (!of.choices.empty()) {
+    variable.attributes.push_back({"words", listed(of.choices, std::identity(), " ")});
+  }
+  return variable;
+}
+
 /// Each axis is a dimension with a variable of its name.
 void describe_axes(NetcdfDescription& description, const Grid& grid) {
   for (const Axis& axis : grid.axes) {
-    const NamedParameter parameter = named_parameter(axis, grid.drive);
-    NetcdfVariable variable =
-        numbers(parameter.name, {description.dimensions.size()}, parameter.meaning, parameter.unit);
-    variable.attributes.push_back({"path", parameter.path});
-    variable.attributes.push_back({"spacing", spacing_of(axis)});
-    if (!parameter.words.empty()) variable.attributes.push_back({"words", parameter.words});
+    NetcdfVariable variable = parameter(axis, grid.drive, {description.dimensions.size()});
+    variable.attributes.push_back({"spacing", axis.logarithmic ? "logarithmic" : "linear"});
     variable.values = axis.values;
-    description.dimensions.push_back({parameter.name, axis.values.size()});
+    description.dimensions.push_back({variable.name, axis.values.size()});
     description.variables.push_back(std::move(variable));
   }
+}
+
+/// The numbers of the drive that are on no axis. Returns their names, with blanks between.
+std::string describe_fixed(NetcdfDescription& description, const Grid& grid) {
+  std::string names;
+  for (const auto& [path, value] : fixed_parameters(grid)) {
+    const auto* number = std::get_if<double>(&value);
+    if (number == nullptr) continue;
+    description.variables.push_back(parameter(Axis{.path = std::string(path)}, grid.drive, {}));
+    description.variables.back().values = {*number};
+    names += (names.empty() ? "" : " ") + description.variables.back().name;
+  }
+  return names;
 }
 
 /// A list of points for each axis.
@@ -104,7 +120,7 @@ void describe_boundary(NetcdfDescription& description, const Grid& grid, std::si
   for (const Axis& axis : grid.axes) {
     description.variables.push_back(
         numbers(boundary_name(axis), {dimension},
-                named_parameter(axis, grid.drive).meaning +
+                std::string(parameter_of(axis, grid.drive)->meaning) +
                     ", where hunting ends (growth at rest 1); NaN between curves",
                 unit_of(axis, grid.drive)));
   }
@@ -115,18 +131,11 @@ void describe_boundary(NetcdfDescription& description, const Grid& grid, std::si
 NetcdfDescription description_of(const GridContents& contents, const GridExtras& extras) {
   const Grid& grid = contents.grid;
   NetcdfDescription description;
-  for (const auto& [name, text] : attributes_of_file(contents)) {
-    description.attributes.push_back({name, text});
-  }
+  description.attributes = attributes_of_file(contents);
   describe_axes(description, grid);
   std::vector<std::size_t> all_axes(grid.axes.size());
   std::iota(all_axes.begin(), all_axes.end(), std::size_t{0});
-  std::string coordinates;
-  for (const auto& [parameter, value] : fixed_numbers(grid)) {
-    description.variables.push_back(numbers(parameter.name, {}, parameter.meaning, parameter.unit));
-    description.variables.back().values = {value};
-    coordinates += (coordinates.empty() ? "" : " ") + parameter.name;
-  }
+  const std::string coordinates = describe_fixed(description, grid);
   const auto add_answer = [&](NetcdfVariable variable) {
     if (!coordinates.empty()) variable.attributes.push_back({"coordinates", coordinates});
     description.variables.push_back(std::move(variable));
@@ -153,20 +162,6 @@ std::vector<std::byte> target_flags(std::span<const PlaceKind> kinds) {
     const auto* const word = std::find(target_words.begin(), target_words.end(), kind);
     return static_cast<std::byte>(word - target_words.begin());
   });
-}
-
-std::string one_word(std::string_view words) {
-  std::string word(words);
-  std::replace(word.begin(), word.end(), ' ', '_');
-  return word;
-}
-
-std::vector<std::string> verdict_words() {
-  std::vector<std::string> words;
-  for (int number = 0; number <= static_cast<int>(Verdict::undecided); ++number) {
-    words.push_back(one_word(name_of(static_cast<Verdict>(number))));
-  }
-  return words;
 }
 
 }  // namespace gearlash

@@ -4,8 +4,6 @@
 #include <cstddef>
 #include <span>
 #include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "gearlash/grid.hpp"
@@ -22,35 +20,6 @@ struct GridContents {
   Provenance provenance;
   std::string source_text = {};  ///< of the sweep file; empty without one
 };
-
-/// Names and texts, the same for equal contents.
-std::vector<std::pair<std::string, std::string>> attributes_of_file(const GridContents& contents);
-
-/// "cannot hunt" is "cannot_hunt", as the words of flags must be.
-std::string one_word(std::string_view words);
-/// "cannot_hunt", "hunts", … in the order of the enumeration.
-std::vector<std::string> verdict_words();
-
-/// A parameter as the data of a grid show it.
-struct NamedParameter {
-  std::string name;  ///< of its column
-  std::string path;
-  std::string meaning;
-  std::string unit;   ///< as UDUNITS spells it
-  std::string words;  ///< of a choice, in the order of their numbers: "load motor"; else empty
-};
-
-NamedParameter named_parameter(const Axis& axis, const Drive& drive);
-/// "linear", "logarithmic".
-std::string spacing_of(const Axis& axis);
-
-/// A number of the drive that is not on an axis, in SI.
-struct FixedNumber {
-  NamedParameter parameter;
-  double value;
-};
-
-std::vector<FixedNumber> fixed_numbers(const Grid& grid);
 
 /// The names of variables; those of quantities and axes are their own.
 inline constexpr char verdict_name[] = "verdict";

@@ -83,10 +83,14 @@ ByName<ParameterValue> fixed_parameters(const Grid& grid) {
 void write_grid_csv(const GridTable& table, const TextSink& sink) {
   const std::vector<Axis>& axes = table.grid.axes;
   const std::vector<Quantity> numbers = quantities_of(table.table);
-  auto names = of_each(axes, [](const Axis& axis) { return column_name(axis.path); });
+  auto names = of_each(axes, [&](const Axis& axis) {
+    return column_in(unit_of(axis, table.grid.drive), column_name(axis.path));
+  });
   names.emplace_back("verdict");
   if (table.target) names.emplace_back("target");
-  for (const Quantity quantity : numbers) names.emplace_back(name_of(quantity));
+  for (const Quantity quantity : numbers) {
+    names.push_back(column_in(info_of(quantity).unit, std::string(name_of(quantity))));
+  }
   const auto are_words =
       of_each(axes, [&](const Axis& axis) { return unit_of(axis, table.grid.drive).empty(); });
   CsvTable csv(sink, names);

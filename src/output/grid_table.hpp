@@ -46,7 +46,7 @@ std::string certainty_of(const Grid& grid);
 ByName<ParameterValue> fixed_parameters(const Grid& grid);
 
 /// One line for each point: the values of the axes, the verdict, whether a target is met, and every
-/// quantity, in SI; empty if not known.
+/// quantity, in SI; empty if not known. Names of columns have the unit: "amplitude_rad".
 void write_grid_csv(const GridTable& table, const TextSink& sink);
 
 struct GridAxis {

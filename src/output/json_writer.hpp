@@ -4,7 +4,6 @@
 #include <complex>
 #include <concepts>
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -38,18 +37,12 @@ ByName<ParameterValue> parameter_values(const Drive& drive);
 /// The paths of the parameters with default values.
 std::vector<std::string> defaults_taken(const Drive& drive);
 
-/// Rows that are computed while they are written: {"columns": […], "rows": [[…], …]}.
-template <class Row>
-struct RowsOf {
-  std::function<void(const std::function<void(const Row&)>&)> each;
-};
-
 /// "CoulombFriction" is "coulomb friction".
 std::string name_in_words(std::string_view name);
 
 /// Numbers by json_text(), enumerations by their words, structs as objects of their members and of
-/// what they compute, variants of structs with their "kind", drives by parameter_values(). What is
-/// empty is null.
+/// what they compute, variants of structs with their "kind", drives by parameter_values(), rows as
+/// {"columns": […], "rows": [[…], …]}. What is empty is null.
 class JsonWriter {
  public:
   enum class Layout : bool { lines, compact };
@@ -199,25 +192,13 @@ class JsonWriter {
     });
   }
 
-  /// All numbers and words of a struct, those of structs within it in their places.
-  template <class Struct, class Visit>
-  static void for_each_leaf(const Struct& value, const Visit& visit) {
-    const auto leaf = [&](const auto& one) {
-      const auto& of = value.*(one.place);
-      if constexpr (records::IsRecord<std::remove_cvref_t<decltype(of)>>) {
-        for_each_leaf(of, visit);
-      } else {
-        visit(one.name, of);
-      }
-    };
-    std::apply([&](const auto&... one) { (leaf(one), ...); }, records::Record<Struct>::members);
-  }
-
   template <class Row>
   void rows(const RowsOf<Row>& rows) {
     object([&] {
       std::vector<std::string> columns;
-      for_each_leaf(Row{}, [&](const char* name, const auto&) { columns.emplace_back(name); });
+      records::for_each_leaf(Row{}, [&](const auto& member, const char* holder, const auto&) {
+        columns.push_back(leaf_name(member, holder));
+      });
       member("columns", columns);
       next_line();
       sink_("\"rows\": ");
@@ -229,7 +210,7 @@ class JsonWriter {
   void row(const Row& row) {
     next_line();
     const char* separator = "[";
-    for_each_leaf(row, [&](const char*, const auto& value) {
+    records::for_each_leaf(row, [&](const auto&, const char*, const auto& value) {
       sink_(separator);
       this->value(value);
       separator = ", ";

@@ -38,14 +38,13 @@ struct MotionDocument {
 /// The report and `progress` must outlive it.
 MotionDocument document_of(const MotionReport& report, Progress& progress);
 
-/// One row for each sample, at 0, every, 2 every, … up to the end: time_s, load_position_rad,
-/// load_speed_rad_per_s, motor_position_rad, motor_speed_rad_per_s, motor_torque_N_m,
-/// reference_rad, load_torque_N_m, mode.
+/// One row for each sample, at 0, every, 2 every, … up to the end: the members of MotionSample with
+/// their units, time_s, load_position_rad and so on.
 void write_samples_csv(const MotionReport& report, const TextSink& sink,
                        Progress& progress = no_progress());
 
-/// One row for each event: time_s, what, mode_after, energy_lost_J (empty if not known), and the
-/// shafts' positions and speeds before and after.
+/// One row for each event: the members of MotionEvent with their units, time_s, what, …,
+/// load_position_before_rad and so on.
 void write_events_csv(const MotionReport& report, const TextSink& sink);
 
 /// The report as JSON. Rows go to the sink one by one.

@@ -51,9 +51,9 @@ class ServoMotion : public Motion::Source {
           {.time = event.time / rate_,
            .what = text_of(event),
            .mode_after = text_of(event.mode_after),
+           .energy_lost = is_lossy ? std::optional(event.energy_lost * stiffness_) : std::nullopt,
            .before = shafts_of(event.before),
-           .after = shafts_of(event.after),
-           .energy_lost = is_lossy ? std::optional(event.energy_lost * stiffness_) : std::nullopt});
+           .after = shafts_of(event.after)});
     }
     for (const Touch& touch : trajectory_.touches()) {
       touches.push_back({touch.time / rate_,

@@ -143,7 +143,7 @@ TEST_F(DriveCommand, SimulateTakesTheReferenceOfTheFile) {
   ASSERT_EQ(lines.size(), 4U);
   EXPECT_EQ(lines[0],
             "time_s,load_position_rad,load_speed_rad_per_s,motor_position_rad,"
-            "motor_speed_rad_per_s,motor_torque_N_m,reference_rad,load_torque_N_m,mode");
+            "motor_speed_rad_per_s,motor_torque_N_m,reference_rad,load_torque_N_m,mode,is_apart");
   EXPECT_THAT(lines[3], HasSubstr(",0.003490658503988659,0,"));
   const Outcome events = run_tool({"simulate", drive, "--until", "2", "--events"});
   EXPECT_THAT(events.out, HasSubstr(",faces part,apart,"));

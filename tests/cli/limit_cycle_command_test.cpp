@@ -28,23 +28,6 @@ json parsed(const Outcome& run) {
   return json::parse(run.out);
 }
 
-void expect_same_cycle(const json& printed, const LimitCycle& cycle) {
-  EXPECT_EQ(printed["kind"], name_of(cycle.kind));
-  EXPECT_EQ(printed["stability"], cycle.stable ? "stable" : "unstable");
-  EXPECT_EQ(printed["amplitude"].get<double>(), cycle.amplitude);
-  EXPECT_EQ(printed["motor_amplitude"].get<double>(), cycle.motor_amplitude);
-  EXPECT_EQ(printed["period"].get<double>(), cycle.period);
-  EXPECT_EQ(printed["multiplier"].get<double>(), cycle.multiplier);
-  EXPECT_EQ(printed["impact_speed"].get<double>(), cycle.impact_speed);
-  EXPECT_EQ(printed["engaged_time"].get<double>(), cycle.engaged_time);
-  EXPECT_EQ(printed["separated_time"].get<double>(), cycle.separated_time);
-  EXPECT_EQ(printed["residual"].get<double>(), cycle.residual);
-  EXPECT_EQ(printed["events_per_period"].get<std::size_t>(), cycle.impacts_per_period);
-  EXPECT_EQ(printed["settles"], cycle.settles);
-  EXPECT_EQ(printed["energy"]["impacts"].get<double>(), cycle.energy.impacts);
-  EXPECT_EQ(printed["energy"]["lost"].get<double>(), cycle.energy.total());
-}
-
 json answer_of(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "limit-cycle");
   arguments.insert(arguments.end(), {"--format", "json"});
@@ -82,29 +65,14 @@ TEST(LimitCycleCommand, ALongDecimalIsNotTakenForAShortOne) {
   }
 }
 
-TEST(LimitCycleCommand, JsonReadsBackAsExactlyWhatTheLibraryFinds) {
+TEST(LimitCycleCommand, JsonHasWhatTheLibraryFindsAndHowItWasMade) {
   const json printed = answer_of_sample();
-  const NormalizedServo servo{
-      .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3};
-  const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
-
-  EXPECT_EQ(printed["normal_form"]["damping"].get<double>(), 0.19);
-  EXPECT_EQ(printed["normal_form"]["inertia_ratio"].get<double>(), 2.0);
-  EXPECT_EQ(printed["normal_form"]["friction_ratio"].get<double>(), 0.1);
-  EXPECT_EQ(printed["normal_form"]["backlash"].get<double>(), 0.3);
-  EXPECT_EQ(printed["normal_form"]["restitution"].get<double>(), 0.0);
-  EXPECT_EQ(printed["drive"]["sensor.position"], "load");
-  EXPECT_EQ(printed["growth_at_rest"].get<double>(), analysis.growth_at_rest);
-  EXPECT_EQ(printed["verdict"], "hunts");
   EXPECT_EQ(printed["schema"], "gearlash/limit-cycle/3");
-  EXPECT_EQ(printed["engine"], "closed form");
-  ASSERT_EQ(printed["cycles"].size(), analysis.cycles.size());
-  for (std::size_t i = 0; i < analysis.cycles.size(); ++i) {
-    expect_same_cycle(printed["cycles"][i], analysis.cycles[i]);
-  }
   EXPECT_EQ(printed["version"], version);
   EXPECT_THAT(printed["command"].get<std::string>(),
               StartsWith("gearlash limit-cycle --damping 0.19"));
+  EXPECT_EQ(printed["drive"]["sensor.position"], "load");
+  EXPECT_EQ(printed["engine"], "closed form");
   // Published numbers, so that a fault shared with the library would be seen.
   EXPECT_NEAR(printed["cycles"][0]["amplitude"].get<double>(), 0.241611108, 1e-9);
   EXPECT_NEAR(printed["cycles"][0]["period"].get<double>(), 6.456205, 1e-6);
@@ -232,15 +200,6 @@ TEST(LimitCycleCommand, PhysicalNumbersAreThoseOfTheDataSheet) {
   EXPECT_NEAR(physical["energy"]["impacts"].get<double>() /
                   (cycle.energy.impacts * file.drivetrain->stiffness),
               1.0, 1e-13);
-}
-
-TEST(LimitCycleCommand, InfinityIsTextBecauseJsonHasNone) {
-  const auto of = [](const char* inertia_ratio, const char* friction_ratio) {
-    return answer_of({"--damping", "0.3", "--inertia-ratio", inertia_ratio, "--friction-ratio",
-                      friction_ratio, "--backlash", "0.1"});
-  };
-  EXPECT_EQ(of("inf", "0.5")["normal_form"]["inertia_ratio"], "inf");
-  EXPECT_EQ(of("1", "0")["growth_at_rest"], "inf");
 }
 
 TEST(LimitCycleCommand, DegenerateServosHaveAnAnswer) {

@@ -147,13 +147,18 @@ class ReadBack(unittest.TestCase):
         with open(self.path("out.csv"), encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual(len(rows), len(table))
-        for name in rows[0]:
+        for column in rows[0]:
+            name = next(name for name in sorted(table, reverse=True)
+                        if f"{column}_".startswith(f"{name}_"))
+            unit = data[name].attrs.get("units", "1")
+            self.assertEqual(column, name if unit == "1" else
+                             f"{name}_{unit.replace('/', '_per_').replace(' ', '_')}")
             words = data[name].attrs.get("flag_meanings", "").split()
             for row, value in zip(rows, table[name]):
                 if words:
-                    self.assertEqual(row[name].replace(" ", "_"), words[int(value)], name)
-                elif row[name]:
-                    self.assertEqual(float(row[name]), value, name)
+                    self.assertEqual(row[column].replace(" ", "_"), words[int(value)], name)
+                elif row[column]:
+                    self.assertEqual(float(row[column]), value, name)
                 else:
                     self.assertTrue(math.isnan(value), name)
 

@@ -68,7 +68,7 @@ TEST(SimulateCommand, CsvReadsBackAsExactlyTheMotion) {
   EXPECT_THAT(table.columns,
               ElementsAre("time_s", "load_position_rad", "load_speed_rad_per_s",
                           "motor_position_rad", "motor_speed_rad_per_s", "motor_torque_N_m",
-                          "reference_rad", "load_torque_N_m", "mode"));
+                          "reference_rad", "load_torque_N_m", "mode", "is_apart"));
   const Start start{.load_position = 0.5, .load_speed = -1.0 / 3.0};
   const Motion motion = simulate(sample_drive(0.25), {.until = 20.0, .start = start});
   ASSERT_EQ(table.rows.size(), 286U);
@@ -79,6 +79,7 @@ TEST(SimulateCommand, CsvReadsBackAsExactlyTheMotion) {
     EXPECT_EQ(row[6], "0.25");
     EXPECT_EQ(row[7], "0");
     EXPECT_EQ(row[8], sample.mode);
+    EXPECT_EQ(row[9], sample.is_apart ? "1" : "0");
   }
 }
 

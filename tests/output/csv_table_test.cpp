@@ -22,6 +22,12 @@ TEST_F(CsvTables, BeginWithTheirColumns) {
   EXPECT_EQ(written, "time_s,load_position_rad,mode\n0.5,-2e-300,apart\n");
 }
 
+TEST_F(CsvTables, HaveUnitsInTheNamesOfColumns) {
+  EXPECT_EQ(column_in("rad/s", "motor_speed"), "motor_speed_rad_per_s");
+  EXPECT_EQ(column_in("N m/(rad s)", "integral"), "integral_N_m_per_rad_s");
+  EXPECT_EQ(column_in("1", "damping"), "damping");
+}
+
 TEST_F(CsvTables, HaveNumbersThatReadBack) {
   const double value = 0.1 + 0.2;
   table({"a"}).row(value);

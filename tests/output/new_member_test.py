@@ -19,14 +19,13 @@ VALUE = {"schema": "gearlash/made-up/1", "units": "SI", "wheel": {"radius": 1, "
 
 
 def made(make, header, folder):
-    """The four outputs for a header."""
+    """The outputs for a header."""
     methods = folder / "methods.py"
     methods.write_text("class Record:\n    pass\n")
-    for kind, output, more in (("members", "a.hpp", []), ("schemas", "schemas", []),
-                               ("types", "a.ts", []), ("python", "a.py", ["--methods", methods])):
-        subprocess.run([sys.executable, make, kind, folder / output, "--of", header, *more],
-                       check=True)
     schemas = folder / "schemas"
+    subprocess.run([sys.executable, make, "--members", folder / "a.hpp", "--types", folder / "a.ts",
+                    "--python", folder / "a.py", "--methods", methods, "--schemas", schemas,
+                    "--of", header], check=True)
     return {"members": (folder / "a.hpp").read_text(), "python": (folder / "a.py").read_text(),
             "types": (folder / "a.ts").read_text(),
             "schema": (schemas / "made-up.schema.json").read_text(),
@@ -56,7 +55,7 @@ def main():
     for kind in ("members", "python", "types", "schema"):
         assert "extra_load" not in before[kind], kind
         assert "extra_load" in after[kind], kind
-    assert 'Member{"extra_load", &gearlash::made_up::Cart::extra_load}' in after["members"]
+    assert 'Member{"extra_load", &gearlash::made_up::Cart::extra_load, "kg"}' in after["members"]
     assert "    extra_load: float | None = None" in after["python"]
     assert "  /** kg, on top */\n  extra_load: number | null;" in after["types"]
     assert json.loads(after["schema"])["properties"]["extra_load"]["description"] == "kg, on top."

@@ -86,7 +86,7 @@ def test_the_tool_maps_the_same(example, tool, tmp_path):
     data = gearlash.sweep(drive, {"gearbox.backlash": "1 arcmin:1 deg:7",
                                   "controller.proportional": "50 V/rad:300 V/rad:5"}, ["amplitude"])
     table = pandas.read_csv(file, float_precision="round_trip")
-    told = {(row.gearbox_backlash, row.controller_proportional): row.amplitude
+    told = {(row.gearbox_backlash_rad, row.controller_proportional_V_per_rad): row.amplitude_rad
             for row in table.itertuples()}
     for point, amplitude in data["amplitude"].stack(point=data["amplitude"].dims).to_series().items():
         assert told[point] == amplitude
@@ -106,7 +106,7 @@ def test_a_quantity_is_wherever_quantities_are(name, example, tool, tmp_path):
     tool("map", file, *axes, "--quantity", "mesh_torque", "--output", tmp_path / "map.csv",
          "--plot", f"map={tmp_path / 'map.svg'}")
     table = pandas.read_csv(tmp_path / "map.csv", float_precision="round_trip")
-    told = table[table["load_inertia"] == inertia]["mesh_torque"].to_numpy()
+    told = table[table["load_inertia_kg_m2"] == inertia]["mesh_torque_N_m"].to_numpy()
     assert told[1] == pytest.approx(one, rel=1e-6)
     assert told[0] < told[1] < told[2]
     assert "torque between the faces" in (tmp_path / "map.svg").read_text()
@@ -114,7 +114,7 @@ def test_a_quantity_is_wherever_quantities_are(name, example, tool, tmp_path):
     with xarray.open_dataset(tmp_path / "map.nc") as data:
         assert data["mesh_torque"].attrs["units"] == "N m"
         assert np.sort(data["mesh_torque"].values.ravel()) == pytest.approx(
-            np.sort(table["mesh_torque"]), rel=1e-12)
+            np.sort(table["mesh_torque_N_m"]), rel=1e-12)
     found = gearlash.design(drive, f"mesh-torque <= {one} N m", [axis])["gearbox.backlash"]
     assert found.intervals[-1].high == pytest.approx(backlash, rel=1e-3)
 

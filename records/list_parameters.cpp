@@ -1,8 +1,9 @@
-// Prints every parameter and quantity as JSON, from which the reference pages are made.
+// Prints every parameter and quantity as JSON, of which the schema of drive files and the reference
+// pages are made.
+#include <algorithm>
 #include <cstddef>
 #include <iostream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,14 +13,15 @@
 #include "gearlash/drive.hpp"
 #include "gearlash/parameter.hpp"
 #include "gearlash/quantity.hpp"
+#include "listed.hpp"
+#include "listed_records.hpp"
 #include "model/normalized_servo.hpp"
 #include "model/parameters.hpp"
 
 namespace {
 
 using namespace gearlash;
-using Json = nlohmann::ordered_json;
-using Words = std::vector<std::string>;
+using namespace gearlash::listed;
 
 bool is_choice(const Parameter& parameter, Drive& drive) {
   return std::holds_alternative<Choice>(parameter.slot(drive));
@@ -97,16 +99,14 @@ bool can_exist(const Parameter& parameter, const Drive& drive) {
   return false;
 }
 
-/// How the parameter depends on the words of a drive that has it.
-struct Dependence {
-  std::map<std::string, Words> exists_with{};  ///< words of a path, where others rule it out
-  std::map<std::string, std::map<std::string, Words>> units{};     ///< path → unit → words
-  std::map<std::string, std::map<std::string, Words>> defaults{};  ///< of a word, likewise
-};
-
 std::string unit_in(const Parameter& parameter, const Drive& drive) {
   const Dimension* dimension = parameter.dimension(drive);
   return dimension == nullptr ? "" : std::string(dimension->unit);
+}
+
+std::string example_in(const Parameter& parameter, const Drive& drive) {
+  const Dimension* dimension = parameter.dimension(drive);
+  return dimension == nullptr ? "" : std::string(dimension->example);
 }
 
 /// The word of a choice; empty for a number.
@@ -118,8 +118,13 @@ std::string word_in(const Parameter& parameter, Drive drive) {
   return chosen < parameter.choices.size() ? std::string(parameter.choices[chosen]) : "";
 }
 
-Dependence dependence_of(const Parameter& parameter, Drive drive) {
-  Dependence found;
+template <class Value>
+ByName<Value> by_name(const std::map<std::string, Value>& map) {
+  return {map.begin(), map.end()};
+}
+
+/// How the parameter depends on the words of a drive that has it.
+void describe_dependence(ListedParameter& listed, const Parameter& parameter, Drive drive) {
   for (const Parameter& other : all_parameters_of_drives()) {
     if (&other == &parameter || !is_choice(other, drive)) continue;
     Words words;
@@ -132,15 +137,14 @@ Dependence dependence_of(const Parameter& parameter, Drive drive) {
       units[unit_in(parameter, varied)].emplace_back(other.choices[choice]);
       defaults[word_in(parameter, varied)].emplace_back(other.choices[choice]);
     }
-    if (words.size() < other.choices.size()) found.exists_with[std::string(other.path)] = words;
-    if (defaults.size() > 1) found.defaults[std::string(other.path)] = defaults;
-    if (units.size() > 1) found.units[std::string(other.path)] = units;
+    if (words.size() < other.choices.size()) listed.exists_with.emplace_back(other.path, words);
+    if (defaults.size() > 1) listed.defaults.emplace_back(other.path, by_name(defaults));
+    if (units.size() > 1) listed.units.emplace_back(other.path, by_name(units));
   }
-  return found;
 }
 
-std::string permitted(const Parameter& parameter) {
-  switch (parameter.permitted) {
+std::string permitted(const Parameter& parameter, Permitted values) {
+  switch (values) {
     case Permitted::positive:
       return "> 0";
     case Permitted::not_negative:
@@ -162,8 +166,8 @@ std::string kind_of(const Slot& slot) {
   return std::holds_alternative<std::string*>(slot) ? "file" : "number";
 }
 
-Json default_of(const Parameter& parameter, Drive& drive, const std::string& kind) {
-  if (parameter.is_required) return nullptr;
+ParameterValue default_of(const Parameter& parameter, Drive& drive, const std::string& kind) {
+  if (parameter.is_required) return {};
   if (!parameter.otherwise.empty()) return std::string(parameter.otherwise);
   if (kind == "choice") return word_in(parameter, drive);
   if (kind == "number") {
@@ -172,68 +176,64 @@ Json default_of(const Parameter& parameter, Drive& drive, const std::string& kin
     if (value && *value != present) return *value;
     if (value && !is_optional) return 0.0;
   }
-  return nullptr;
+  return {};
 }
 
-Json described(const Parameter& parameter, Drive drive) {
+/// The values that the number of another form may have.
+Permitted permitted(const OtherForm& form, Permitted parameter) {
+  if (form.relation == Relation::power_of_two) return Permitted::positive;
+  const bool has_reciprocal = form.relation == Relation::reciprocal;
+  return has_reciprocal && parameter == Permitted::not_negative ? Permitted::positive : parameter;
+}
+
+ListedParameter described(const Parameter& parameter, Drive drive) {
   const std::string kind = kind_of(parameter.slot(drive));
-  const Dependence dependence = dependence_of(parameter, drive);
-  Json aliases = Json::array();
-  for (const OtherForm& form : parameter.other_forms) {
-    const std::string unit = form.dimension == nullptr ? "" : std::string(form.dimension->unit);
-    aliases.push_back({{"path", std::string(form.path)}, {"unit", unit}});
+  ListedParameter listed{.path = std::string(parameter.path),
+                         .kind = kind,
+                         .meaning = std::string(parameter.meaning),
+                         .unit = unit_in(parameter, drive),
+                         .example = example_in(parameter, drive),
+                         .is_required = parameter.is_required,
+                         .otherwise = default_of(parameter, drive, kind),
+                         .usual_low = parameter.usual.low,
+                         .usual_high = parameter.usual.high};
+  describe_dependence(listed, parameter, drive);
+  if (kind == "number") listed.permitted = permitted(parameter, parameter.permitted);
+  if (kind == "choice") listed.words = words_of(parameter);
+  for (const OtherWord& other : parameter.other_words) {
+    listed.synonyms.emplace_back(other.word, parameter.choices[other.choice]);
   }
-  Json words = Json::array();
-  for (const std::string& word : words_of(parameter)) words.push_back(word);
-  return {{"path", std::string(parameter.path)},
-          {"kind", kind},
-          {"meaning", std::string(parameter.meaning)},
-          {"unit", unit_in(parameter, drive)},
-          {"units", dependence.units},
-          {"defaults", dependence.defaults},
-          {"exists_with", dependence.exists_with},
-          {"permitted", kind == "number" ? permitted(parameter) : ""},
-          {"required", parameter.is_required},
-          {"default", default_of(parameter, drive, kind)},
-          {"words", kind == "choice" ? words : Json::array()},
-          {"aliases", aliases},
-          {"usual", {parameter.usual.low, parameter.usual.high}}};
-}
-
-Json described(const QuantityInfo& quantity) {
-  constexpr std::string_view scopes[] = {"answer", "motion", "ceiling", "loop", "step"};
-  return {{"name", std::string(quantity.name)},
-          {"unit", std::string(quantity.unit)},
-          {"meaning", std::string(quantity.meaning)},
-          {"scope", std::string(scopes[static_cast<std::size_t>(quantity.scope)])}};
+  for (const OtherForm& form : parameter.other_forms) {
+    listed.aliases.push_back(
+        {.path = std::string(form.path),
+         .unit = form.dimension == nullptr ? "" : std::string(form.dimension->unit),
+         .is_same = form.relation == Relation::same,
+         .permitted = permitted(parameter, permitted(form, parameter.permitted))});
+  }
+  return listed;
 }
 
 }  // namespace
 
 int main() {
   const std::vector<Drive> drives = drives_of_all_kinds();
-  Json parameters = Json::array();
+  Lists lists;
   for (const Parameter& parameter : all_parameters_of_drives()) {
-    const Drive* first = nullptr;
-    for (const Drive& drive : drives) {
-      if (exists(parameter, drive)) {
-        first = &drive;
-        break;
-      }
-    }
-    if (first == nullptr) {
+    const auto first = std::find_if(drives.begin(), drives.end(),
+                                    [&](const Drive& drive) { return exists(parameter, drive); });
+    if (first == drives.end()) {
       std::cerr << "list_parameters: no drive has " << parameter.path << '\n';
       return 1;
     }
-    parameters.push_back(described(parameter, *first));
+    lists.parameters.push_back(described(parameter, *first));
   }
-  Json values = Json::array();
-  for (const QuantityInfo& quantity : quantities()) values.push_back(described(quantity));
-  Json sections = Json::object();
+  constexpr std::string_view scopes[] = {"answer", "motion", "ceiling", "loop", "step"};
+  for (const QuantityInfo& one : quantities()) {
+    lists.quantities.push_back(
+        {one.name, one.unit, one.meaning, scopes[static_cast<std::size_t>(one.scope)]});
+  }
   for (const Section& section : all_sections()) {
-    sections[std::string(section.name)] = std::string(section.contents);
+    lists.sections.emplace_back(section.name, section.contents);
   }
-  std::cout
-      << Json{{"sections", sections}, {"parameters", parameters}, {"quantities", values}}.dump(1)
-      << '\n';
+  std::cout << json_of(lists) << '\n';
 }
