@@ -1,6 +1,7 @@
 // gearlash chart: a family of curves over any parameters of the drive.
 #include <fmt/format.h>
 
+#include "base/fault.hpp"
 #include "base/lists.hpp"
 #include "grid_options.hpp"
 #include "picture/bifurcation_picture.hpp"
@@ -25,28 +26,6 @@ struct ChartOptions {
   std::string x;
   std::string curves;
 };
-
-constexpr std::size_t most_values_of_branches = 1000;
-
-/// What a bifurcation picture needs beside what a chart needs.
-void require_branches(const GridTask& task) {
-  Faults faults;
-  const Axis& x = task.grid.axes.back();
-  if (task.grid.axes.size() > 1) {
-    faults.add("--curves", "given", "must be left out: bifurcation=FILE has branches");
-  }
-  const bool is_number = parameter_of(x, task.grid.drive)->choices.empty();
-  if (!is_number || x.values.size() < 2 || x.values.size() > most_values_of_branches) {
-    faults.add("--x", is_number ? std::to_string(x.values.size()) + " values" : "words",
-               "must have 2 to 1000 numbers for bifurcation=FILE");
-  }
-  if (!has_branches(task.quantity)) {
-    faults.add("--quantity", std::string(name_of(task.quantity)),
-               "must be amplitude, motor_amplitude, period, frequency or multiplier for "
-               "bifurcation=FILE");
-  }
-  faults.require_none();
-}
 
 /// Draws the bifurcation pictures.
 ExitStatus draw_branches(const GridTask& task, const std::vector<PlotFile>& plots,
@@ -73,7 +52,9 @@ ExitStatus run(const ChartOptions& options, const Provenance& provenance) {
   for (const PlotFile& plot : task.plots) {
     (plot.kind == "bifurcation" ? branches : curves).push_back(plot);
   }
-  if (!branches.empty()) require_branches(task);
+  if (!branches.empty()) {
+    require_none(faults_of_branches(task.grid, task.quantity, {"--curves", "--x", "--quantity"}));
+  }
   LimitedWork work(task.limits);
   if (!branches.empty()) {
     const ExitStatus status = draw_branches(task, branches, work);

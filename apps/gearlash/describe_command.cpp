@@ -22,58 +22,12 @@ struct DescribeOptions : QuestionOptions {
   std::string part;
 };
 
-/// A part as --part has it, and as the title of its picture has it.
-struct DrawnPart {
-  drive::DescribedPart part;
-  const char* word;
-  const char* title;
-};
-constexpr DrawnPart drawn_parts[] = {
-    {drive::DescribedPart::gap_load_held, "gap", "The gap by its describing functions"},
-    {drive::DescribedPart::elastic_gap, "elastic-gap",
-     "A gap with elastic faces by its describing function"},
-    {drive::DescribedPart::torque_limit, "torque-limit",
-     "The torque limit by its describing function"},
-    {drive::DescribedPart::coulomb_friction, "coulomb-friction",
-     "Coulomb friction by its describing function"},
-    {drive::DescribedPart::dead_band, "dead-band", "The dead band by its describing function"},
-    {drive::DescribedPart::relay, "relay", "The relay by its describing function"}};
-
 void check_part(const DescribeOptions& options, Faults& faults) {
   if (options.part.empty()) return;
-  faults.require_choice("--part", options.part,
-                        of_each<std::string>(drawn_parts, &DrawnPart::word));
+  faults.require_choice("--part", options.part, parts_to_draw());
   if (options.plots.empty()) {
     faults.add({"--part", shown(options.part), "must come with --plot: it chooses what to draw"});
   }
-}
-
-/// The part to draw: that of --part, else the first one in a loop. Empty where there is none.
-std::optional<DrawnPart> part_to_draw(const DescribeReport& report,
-                                      const DescribeOptions& options) {
-  for (const drive::DescribingAnalysis& analysis : report.analyses) {
-    if (!drive::is_in_loop(analysis)) continue;
-    for (const DrawnPart& drawn : drawn_parts) {
-      const bool is_asked = options.part.empty() || drawn.word == options.part;
-      if (is_asked && !loop_analyses({analysis}, drawn.part).empty()) return drawn;
-    }
-  }
-  return std::nullopt;
-}
-
-Plot plot_of(const DescribeReport& report, const DescribeOptions& options) {
-  const std::optional<DrawnPart> drawn = part_to_draw(report, options);
-  if (!drawn && options.part.empty()) {
-    refuse("--plot", "nyquist", "must be left out: this drive feeds nothing back");
-  }
-  if (!drawn) {
-    refuse("--part", options.part, "must be a part that the drive has inside its loop");
-  }
-  return nyquist_plot({.title = drawn->title,
-                       .analyses = loop_analyses(report.analyses, drawn->part),
-                       .exact = drive::exact_motions(report.answer),
-                       .angle = report.drive.angle_unit,
-                       .is_normalized = report.is_normalized});
 }
 
 ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
@@ -95,7 +49,7 @@ ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
                .remark = decided ? "" : "the exact answer is undecided",
                .is_decided = decided,
                .unknown = "the search is not complete"},
-              work, plots, [&](const PlotFile&) { return plot_of(report, options); });
+              work, plots, [&](const PlotFile&) { return nyquist_plot(report, options.part); });
 }
 
 }  // namespace

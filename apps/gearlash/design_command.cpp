@@ -8,6 +8,7 @@
 #include "input/axis_text.hpp"
 #include "input/section_reader.hpp"
 #include "output/design_report.hpp"
+#include "picture/grid_chart.hpp"
 #include "picture/grid_map.hpp"
 #include "question/axis.hpp"
 #include "question/change/design.hpp"
@@ -100,7 +101,7 @@ GridTask read_region(const DesignOptions& options, const WrittenDrive& written,
     if (is_named && !unit_of(axes[i], written.drive).empty()) space(axes[i], engines);
   }
   require_an_area(task.grid, fields, faults);
-  require_drawable(task.grid, fields, faults);
+  faults.add(faults_of_picture(task.grid, fields, false));
   task.present = place_on_map(task.grid);
   return task;
 }

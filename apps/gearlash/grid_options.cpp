@@ -8,6 +8,7 @@
 #include "base/progress_part.hpp"
 #include "base/range_check.hpp"
 #include "input/target_text.hpp"
+#include "picture/grid_chart.hpp"
 #include "picture/grid_map.hpp"
 #include "question/family/evaluation.hpp"
 #include "question/map/grid_pieces.hpp"
@@ -110,13 +111,10 @@ void read_outputs(const GridOptions& options, const std::vector<std::string>& ki
   }
 }
 
-/// The target, and the place of a file's drive on the map.
 void read_map_target(const GridOptions& options, bool is_known, GridTask& task, Faults& faults) {
   if (options.target.empty()) return;
   task.target_text = options.target;
   task.target = collect_target(options.target, is_known ? &task.grid.drive : nullptr, faults);
-  const bool has_present = !options.servo.file.empty() && task.grid.axes.size() == 2;
-  if (has_present) task.present = place_on_map(task.grid);
 }
 
 void require_room(const Grid& grid) {
@@ -128,15 +126,10 @@ void require_room(const Grid& grid) {
 
 /// All quantities for a table; only the needed ones for pictures alone.
 std::vector<Quantity> quantities_of(const GridTask& task) {
-  const EnginesNeeded engines = Family(task.grid).engines();
   if (task.table_file.empty()) {
-    std::vector<Quantity> drawn = {Quantity::growth_at_rest, task.quantity};
-    const auto ceiling = ceiling_over(task.quantity);
-    const bool has_ceiling = task.has_boundary && engines.search && !task.target;
-    if (has_ceiling && ceiling) drawn.push_back(*ceiling);
-    return drawn;
+    return quantities_drawn(task.grid, task.quantity, task.has_boundary && !task.target);
   }
-  const auto known = quantities_known(engines);
+  const auto known = quantities_known(Family(task.grid).engines());
   std::vector<Quantity> all(known.begin(), known.end());
   if (!contains(all, task.quantity)) all.push_back(task.quantity);
   return all;
@@ -184,38 +177,6 @@ void require_an_area(const Grid& grid, const std::vector<std::string>& fields, F
   }
 }
 
-void require_drawable(const Grid& grid, const std::vector<std::string>& fields, Faults& faults) {
-  constexpr std::size_t most_curves = 16;  // a longer legend leaves no room for them
-  constexpr double narrowest_share =
-      1e-3;  // of the larger end: else its numbers have too many digits
-  for (std::size_t i = 0; i < grid.axes.size(); ++i) {
-    const std::vector<double>& values = grid.axes[i].values;
-    const std::string& field = fields[i];
-    const double first = values.front();
-    const double last = values.back();
-    const auto refuse = [&](const std::string& value, const std::string& permitted) {
-      faults.add(field, value,
-                 "must " + permitted + " in a picture; tables (.csv, .json, .nc) may have it");
-    };
-    const bool is_number = !unit_of(grid.axes[i], grid.drive).empty();
-    if (!std::isfinite(last)) {
-      refuse(exact_text(last), "be finite");
-    } else if (field == "--curves" && values.size() > most_curves) {
-      refuse(fmt::format("{} values", values.size()), fmt::format("be at most {}", most_curves));
-    } else if (field != "--curves" && is_number && values.size() > 1 &&
-               last - first < narrowest_share * std::abs(last)) {
-      refuse(exact_text(first) + " to " + exact_text(last),
-             fmt::format("span {:g} of itself or more", narrowest_share));
-    }
-  }
-}
-
-std::optional<MapPoint> place_on_map(const Grid& grid) {
-  const std::optional<double> x = present_value(grid.axes[1], grid.drive);
-  const std::optional<double> y = present_value(grid.axes[0], grid.drive);
-  return x && y ? std::optional(MapPoint{*x, *y}) : std::nullopt;
-}
-
 GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption>& typed_axes,
                         const std::string& title, const std::vector<std::string>& kinds) {
   Faults faults;
@@ -236,10 +197,14 @@ GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption
     return read_axis(text, task.grid.drive, left_out);
   };
   if (is_known) task.grid.axes = collect_axes(texts, read_one, faults);
+  const bool is_map = task.grid.axes.size() == 2 && typed_axes.front().field == "--y";
+  if (is_map && !options.servo.file.empty()) task.present = place_on_map(task.grid);
   read_map_target(options, written.has_value(), task, faults);
   const bool are_read = task.grid.axes.size() == typed_axes.size();
   const std::vector<std::string> fields = of_each(texts, &AxisText::field);
-  if (!task.plots.empty() && are_read) require_drawable(task.grid, fields, faults);
+  if (!task.plots.empty() && are_read) {
+    faults.add(faults_of_picture(task.grid, fields, fields.front() == "--curves"));
+  }
   faults.require_none();
   require_none(gearlash::faults(task.grid, fields));
   require_room(task.grid);

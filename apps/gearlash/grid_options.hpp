@@ -67,11 +67,6 @@ Quantity read_quantity(const std::string& text, Faults& faults);
 
 /// Adds a fault for each axis of a single value. `fields` name the axes.
 void require_an_area(const Grid& grid, const std::vector<std::string>& fields, Faults& faults);
-/// A picture has no room for infinity, for many curves, or for the digits of a very narrow axis.
-void require_drawable(const Grid& grid, const std::vector<std::string>& fields, Faults& faults);
-
-/// Where the grid's drive lies on its map; empty where it lacks the value of an axis.
-std::optional<MapPoint> place_on_map(const Grid& grid);
 
 /// "20 servos, 18 solved side by side, 2 one by one"
 /// The first point of a grid whose drive has faults, and its fault, where any was refused: for

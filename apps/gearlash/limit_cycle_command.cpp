@@ -45,26 +45,9 @@ struct Result {
   AnswerReport report{};
 };
 
-Plot tornado_of(const Result& result) {
-  if (std::optional<Plot> plot = tornado_plot(*result.report.sensitivity)) return *plot;
-  const std::string& why = result.report.sensitivity->reason;
-  refuse("--plot", "tornado",
-         "must be left out: this drive has no sensitivities" + (why.empty() ? why : "; " + why));
-}
-
-Plot ceiling_of(const Result& result) {
-  const Ceiling& ceiling = *result.report.answer.ceiling;
-  if (ceiling.terms.empty()) {
-    const std::string why =
-        ceiling.load ? "this drive has no gap, dry friction or encoder" : ceiling.reason;
-    refuse("--plot", "ceiling", "must be left out: " + why);
-  }
-  return ceiling_plot(result.report);
-}
-
 Plot plot_of(const Result& result, const std::string& kind, LimitedWork& work) {
-  if (kind == "tornado") return tornado_of(result);
-  if (kind == "ceiling") return ceiling_of(result);
+  if (kind == "tornado") return tornado_plot(*result.report.sensitivity);
+  if (kind == "ceiling") return ceiling_plot(result.report);
   if (kind == "time") return time_plot(response_picture(result.report, result.analysis));
   return phase_plot(phase_picture(result.report, result.analysis,
                                   TerminalProgress(work, "Basins").as_argument()));

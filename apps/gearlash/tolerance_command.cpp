@@ -189,7 +189,12 @@ ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
                .unknown = unknown_text(report)},
               work, task.plots, [&](const PlotFile& plot) {
                 if (report.sensitivities.numbers.empty()) refuse_to_draw(plot);
-                return tolerance_plot(report, plot.kind);
+                if (plot.kind == "indices") {
+                  return indices_plot(report.study, report.sensitivities);
+                }
+                return tolerance_plot(
+                    plot.kind == "yield" ? PictureKind::yield : PictureKind::distribution,
+                    report.study, report.drive.nominal.angle_unit);
               });
 }
 

@@ -11,7 +11,7 @@
 #include "command_line.hpp"
 #include "output/output_file.hpp"
 #include "output/report_units.hpp"
-#include "picture/gnuplot_renderer.hpp"
+#include "picture/gnuplot.hpp"
 #include "servo_options.hpp"
 #include "work.hpp"
 

@@ -24,16 +24,17 @@ print(gearlash.analyse(drive).headline)
 
 # %%
 friction, gain = drive["motor.friction"], drive["controller.proportional"]
-data = gearlash.sweep(drive, [
+chart = [
     gearlash.logarithmic("motor.friction", friction, 3000 * friction, 31),
     gearlash.logarithmic("controller.proportional", gain / 10, 10 * gain, 31),
-], ["amplitude", "frequency"])
+]
+data = gearlash.sweep(drive, chart, ["amplitude", "frequency"])
 words = gearlash.verdict_words(data)
 for word in sorted(set(words.flat)):
     print(f"{word}: {(words == word).sum()} of {words.size} drives")
 print(f"largest amplitude: {float(data['amplitude'].max()):.4g} rad")
 
 # %%
-axes = plot.sweep(data, "amplitude", unit="mrad", logarithmic=True)
+axes = plot.map(drive, chart, unit="mrad")
 if FIGURES:
     axes.figure.savefig(FIGURES / "design-chart.png", dpi=300)

@@ -1,5 +1,7 @@
-// Two limits, and all numbers between them.
+// Two limits with all numbers between them, and points and curves in a plane.
 #pragma once
+
+#include <vector>
 
 namespace gearlash {
 
@@ -11,5 +13,17 @@ struct Bounds {
   [[nodiscard]] bool contains(double value) const { return low <= value && value <= high; }
   bool operator==(const Bounds&) const = default;
 };
+
+/// A point in the plane of two axes.
+struct MapPoint {
+  double x = 0.0;  ///< on the axis to the right
+  double y = 0.0;  ///< on the axis upwards
+
+  bool operator==(const MapPoint&) const = default;
+};
+
+/// Points joined by straight lines in the axes' own scales; closed if the last point equals the
+/// first.
+using MapCurve = std::vector<MapPoint>;
 
 }  // namespace gearlash

@@ -16,6 +16,8 @@
 #include "gearlash/motion.hpp"
 #include "gearlash/output.hpp"
 #include "gearlash/parameter.hpp"
+#include "gearlash/picture.hpp"
+#include "gearlash/plot.hpp"
 #include "gearlash/progress.hpp"
 #include "gearlash/quantity.hpp"
 #include "gearlash/sensitivity.hpp"

@@ -1,92 +1,112 @@
-"""Pictures by Matplotlib. Each function draws into axes, a new figure's unless given, and returns them.
+"""Pictures by Matplotlib, the same as the tool's and the page's.
 
-The style is meant for print: one column of a journal wide, thin lines, colours that the colour-blind
-can tell apart, names with units on the axes.
+Each function gives the axes of its first panel, whose figure has all of them; in given axes it
+draws that panel alone. Each takes ``unit=``, of angles: rad, mrad, deg, arcmin or arcsec, and
+``ax=``; those that find what they show take ``progress=`` too, as :func:`gearlash.analyse`. The
+style is meant for print: columns of a journal wide, thin lines, colours that the colour-blind can
+tell apart, names with units on the axes.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import textwrap
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib import pyplot
 from matplotlib.collections import PolyCollection
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from gearlash import _core
-from gearlash._arguments import whole
+from gearlash._analysis import Progress
+from gearlash._drive import Drive
 from gearlash._methods import Answer
 from gearlash._motion import Motion, simulate
-from gearlash._records import Cycle, Layer, Panel, PlotAxis, Start, ToleranceStudy
-from gearlash._sweep import verdict_words
-
-if TYPE_CHECKING:
-    import xarray
+from gearlash._records import (Axis, Cycle, Layer, Panel, PictureQuestion, Plot, PlotAxis,
+                               SensitivityStudy, Start, ToleranceStudy)
+from gearlash._sweep import AxisLike, grid_of
 
 Axes = Any  # matplotlib.axes.Axes
+AxesLike = Mapping[str, AxisLike] | Sequence[Axis]
 
-#: Wong, Nature Methods 8, 441 (2011).
-COLOURS = {"load": "#0072B2", "motor": "#D55E00", "reference": "#000000", "hunts": "#D55E00",
-           "rest": "#009E73"}
 _WIDTH = 3.5  # inches: a column
+_HEIGHT = 2.6  # of a panel of 480
 _POINTS = 0.45  # of a width of 1 in the library's plots
+_LETTERS = 58  # in a column
 
 _MARKS = {"plus": "+", "cross": "x", "star": (8, 2, 0), "square": "s", "circle": "o", "disc": "o",
           "triangle": "^", "wedge": "v", "diamond": "D", "pentagon": "p"}
-_ANGLE = {"rad": 1.0, "mrad": 1e-3, "deg": np.pi / 180, "arcmin": np.pi / 10800,
-          "arcsec": np.pi / 648000}
 
 
-def _axes(ax: Axes | None, height: float = 2.6) -> Axes:
-    if ax is not None:
-        return ax
-    return pyplot.subplots(figsize=(_WIDTH, height), layout="constrained")[1]
+# ---- drawing -------------------------------------------------------------------------------------
 
 
-def _tidy(ax: Axes, x: str, y: str) -> Axes:
-    ax.set_xlabel(x)
-    ax.set_ylabel(y)
-    for side in ("top", "right"):
-        ax.spines[side].set_visible(False)
-    return ax
-
-
-def _unit(angle: str) -> float:
-    if angle not in _ANGLE:
-        raise ValueError(f"unit must be one of {', '.join(_ANGLE)}, not {angle}")
-    return float(_ANGLE[angle])
-
-
-def draw(panel: Panel, *, ax: Axes | None = None) -> Axes:
-    """Draw a panel of a plot as the library makes it.
+def draw(plot: Plot, *, ax: Axes | None = None) -> Axes:
+    """Draw a plot as the library makes it.
 
     Parameters
     ----------
-    panel : Panel
+    plot : Plot
     ax : matplotlib.axes.Axes, optional
+        For the first panel alone, without the title.
 
     Returns
     -------
     matplotlib.axes.Axes
+        Those of the first panel.
     """
-    ax = _axes(ax)
-    named: set[str] = set()
+    if ax is not None:
+        _draw_panel(plot.columns[0][0], ax, True)
+        _explain([ax], 1)
+        return ax
+    width = len(plot.columns)
+    longest = max(plot.columns, key=len)
+    lines = (plot.title, *plot.subtitles)
+    title = "\n".join(textwrap.fill(line, _LETTERS * width) for line in lines if line)
+    named = sum(layer.in_legend for column in plot.columns for panel in column
+                for layer in panel.layers)
+    height = (sum(panel.height for panel in longest) / 480.0 * _HEIGHT + 0.5
+              + 0.14 * (title.count("\n") + named / 2))
+    figure, grid = pyplot.subplots(
+        len(longest), width, squeeze=False, layout="constrained", figsize=(_WIDTH * width, height),
+        gridspec_kw={"height_ratios": [panel.height for panel in longest]})
+    figure.suptitle(title, fontsize=8)
+    for column, panels in enumerate(plot.columns):
+        for panel, axes in zip(panels, grid[:, column]):
+            _draw_panel(panel, axes, panel is panels[-1])
+    _explain(grid.flat, width)
+    return grid[0, 0]
+
+
+def _explain(placed: Iterable[Axes], width: int) -> None:
+    """Put the legend of all axes above the first."""
+    all_axes = list(placed)
+    entries = [entry for axes in all_axes for entry in zip(*axes.get_legend_handles_labels())]
+    if not entries:
+        return
+    columns = _LETTERS * width // (max(len(name) for _, name in entries) + 8)
+    all_axes[0].legend(*zip(*entries), frameon=False, fontsize=6.5, loc="lower center",
+                       bbox_to_anchor=(0.5 + 0.6 * (width - 1), 1.0), ncols=max(1, min(4, columns)))
+
+
+def _draw_panel(panel: Panel, ax: Axes, is_last: bool) -> None:
     for layer in panel.layers:
-        _add(ax, layer, "" if layer.name in named else layer.name)
-        named.add(layer.name)
+        _add(ax, layer)
     for word in panel.texts:
         ax.text(word.at.x, word.at.y, word.text, color=word.colour, rotation=word.slope,
-                size=7.0 * word.size, ha="center", va="center")
-    _set_axis(ax.xaxis, ax.set_xscale, ax.set_xlim, panel.x)
-    _set_axis(ax.yaxis, ax.set_yscale, ax.set_ylim, panel.y)
-    ax.legend(frameon=False, fontsize="x-small", loc="lower center", bbox_to_anchor=(0.5, 1.0),
-              ncols=3)
-    return _tidy(ax, panel.x.name, panel.y.name)
+                size=6.5 * word.size, weight="bold" if word.is_bold else "normal", ha="center",
+                va="center")
+    _set_axis(ax.xaxis, ax.set_xscale, ax.set_xlim, panel.x, is_last)
+    _set_axis(ax.yaxis, ax.set_yscale, ax.set_ylim, panel.y, True)
+    ax.set_title(panel.title, fontsize=7)
+    for side in ("top", "right"):
+        ax.spines[side].set_visible(False)
 
 
-def _add(ax: Axes, layer: Layer, label: str) -> None:
+def _add(ax: Axes, layer: Layer) -> None:
     points = np.array(layer.points).reshape(-1, 2)
-    style: dict[str, Any] = {"color": layer.colour, "label": label or "_nolegend_"}
+    style: dict[str, Any] = {"color": layer.colour,
+                             "label": layer.name if layer.in_legend else "_nolegend_"}
     if layer.kind == "area":
         gaps = np.flatnonzero(np.isnan(points[:, 0]))
         parts = [part[~np.isnan(part[:, 0])] for part in np.split(points, gaps)]
@@ -94,39 +114,30 @@ def _add(ax: Axes, layer: Layer, label: str) -> None:
     elif layer.kind == "marks":
         is_open = layer.mark.startswith("open_") or layer.mark == "circle"
         ax.plot(*points.T, linestyle="none", marker=_MARKS[layer.mark.removeprefix("open_")],
-                markersize=5.0 * layer.size, fillstyle="none" if is_open else "full", **style)
+                markersize=4.0 * layer.size, fillstyle="none" if is_open else "full", **style)
     else:
-        dashes = tuple(map(float, layer.dashes.split(","))) if layer.dashes else None
+        dashes = tuple(float(one) for one in layer.dashes.split(",")) if layer.dashes else None
         ax.plot(*points.T, linewidth=_POINTS * layer.width,
                 linestyle=(0, dashes) if dashes else "-", **style)
 
 
-def _set_axis(axis: Any, set_scale: Any, set_limits: Any, drawn: PlotAxis) -> None:
+def _set_axis(axis: Any, set_scale: Any, set_limits: Any, drawn: PlotAxis,
+              is_numbered: bool) -> None:
     set_scale("log" if drawn.logarithmic else "linear")
     set_limits(drawn.low, drawn.high)
-    axis.set_ticks([tic.at for tic in drawn.tics], [tic.text for tic in drawn.tics])
+    axis.set_ticks([tic.at for tic in drawn.tics],
+                   [tic.text if is_numbered else "" for tic in drawn.tics])
     axis.set_ticks([], minor=True)
+    axis.set_tick_params(labelsize=7)
+    axis.set_label_text(drawn.label if is_numbered else "", fontsize=8)
 
 
-def motion(moving: Motion, *, unit: str = "rad", points: int = 2000, ax: Axes | None = None) -> Axes:
-    """Draw both shafts and the reference over time, and the gap around the load.
+# ---- of motions ----------------------------------------------------------------------------------
 
-    Parameters
-    ----------
-    moving : Motion
-    unit : str
-        Of angles: rad, mrad, deg, arcmin or arcsec.
-    points : int
-        Without effect: points lie where the curves bend.
-    ax : matplotlib.axes.Axes, optional
 
-    Returns
-    -------
-    matplotlib.axes.Axes
-    """
-    _unit(unit)
-    whole("points", points, 2, 10**8)
-    return draw(_core.plot_over_time(moving._core, moving.drive, unit).columns[0][0], ax=ax)
+def motion(moving: Motion, *, unit: str = "rad", ax: Axes | None = None) -> Axes:
+    """Draw a motion over time: both shafts and the reference, the gap, and the torque."""
+    return draw(_core.time_plot(moving._core, moving.drive, unit), ax=ax)
 
 
 def cycle(answer: Answer, which: Cycle | None = None, *, unit: str = "rad",
@@ -138,9 +149,6 @@ def cycle(answer: Answer, which: Cycle | None = None, *, unit: str = "rad",
     answer : Answer
     which : Cycle, optional
         Default the largest that is not unstable.
-    unit : str
-        Of angles.
-    ax : matplotlib.axes.Axes, optional
 
     Raises
     ------
@@ -160,8 +168,7 @@ def cycle(answer: Answer, which: Cycle | None = None, *, unit: str = "rad",
     if abs(drawn - which.amplitude) > 2e-3 * max(which.amplitude, which.motor_amplitude):
         raise ValueError(f"the motion from ±{which.amplitude:.4g} rad leads to ±{drawn:.4g} rad: "
                          "the cycle is not stable, or another one draws the start in")
-    _unit(unit)
-    return draw(_core.plot_of_cycle(moving._core, drive, unit, settled).columns[0][0], ax=ax)
+    return draw(_core.phase_plot(moving._core, drive, unit, settled), ax=ax)
 
 
 def _settling_time(which: Cycle) -> float:
@@ -171,89 +178,87 @@ def _settling_time(which: Cycle) -> float:
     return which.period * min(200.0, periods + 4.0)
 
 
-def sweep(data: xarray.Dataset, quantity: str = "amplitude", *, unit: str | None = None,
-          logarithmic: bool = False, ax: Axes | None = None) -> Axes:
-    """Draw a quantity of a sweep: a curve over one axis, or a map over two.
+# ---- of a drive ----------------------------------------------------------------------------------
 
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of :func:`gearlash.sweep` with one or two axes.
-    quantity : str
-    unit : str, optional
-        Of angles; default rad.
-    logarithmic : bool
-        Draw the axes of parameters by ratio.
-    ax : matplotlib.axes.Axes, optional
 
-    Raises
-    ------
-    ValueError
-        For another number of axes, and a quantity that the sweep does not have.
+def picture(kind: str, drive: Drive, axes: AxesLike = (), *, unit: str = "rad",
+            progress: Progress = None, ax: Axes | None = None, **question: Any) -> Axes:
+    """Draw the picture of that kind; further arguments are members of :class:`PictureQuestion`."""
+    varied, grid = grid_of(drive, axes)
+    asked = PictureQuestion(kind=kind, drive=varied, angle=unit, axes=tuple(grid), **question)
+    return draw(_core.picture_of(asked, progress), ax=ax)
+
+
+def phase(drive: Drive, **options: Any) -> Axes:
+    """Draw the limit cycles in the phase plane, and motions that lead to them."""
+    return picture("phase", drive, **options)
+
+
+def time(drive: Drive, **options: Any) -> Axes:
+    """Draw the motion that leads to the hunting, or to rest, over time."""
+    return picture("time", drive, **options)
+
+
+def ceiling(drive: Drive, **options: Any) -> Axes:
+    """Draw what the proved bound of every motion is made of."""
+    return picture("ceiling", drive, **options)
+
+
+def tornado(drive: Drive, **options: Any) -> Axes:
+    """Draw the sensitivities of the amplitude, in per cent for one per cent."""
+    return picture("tornado", drive, **options)
+
+
+def nyquist(drive: Drive, part: str = "", **options: Any) -> Axes:
+    """Draw the loop's gain against −1/N of a part: gap, relay, …; default the first in the loop."""
+    return picture("nyquist", drive, part=part, **options)
+
+
+def curves(drive: Drive, axes: AxesLike, quantity: str = "amplitude", **options: Any) -> Axes:
+    """Draw a quantity over the last axis, a curve for each value of the one before.
+
+    Axes are those of :func:`gearlash.sweep`.
     """
-    if quantity not in data or quantity == "verdict":
-        has = ", ".join(str(name) for name in data if name != "verdict")
-        raise ValueError(f"quantity must be one of the sweep's, {has}, not {quantity}")
-    values = np.asarray(data[quantity], dtype=float)
-    label = str(data[quantity].attrs.get("units", ""))
-    if unit is not None and label == "rad":
-        values, label = values / _unit(unit), unit
-    dims = [str(name) for name in data[quantity].dims]
-    names = [_name_of(data, dim) for dim in dims]
-    name = f"{quantity.replace('_', ' ')} ({label})"
-    ax = _axes(ax)
-    if len(dims) == 1:
-        ax.plot(data[dims[0]], values, color=COLOURS["load"], linewidth=0.9)
-        _tidy(ax, names[0], name)
-    elif len(dims) == 2:
-        x, y = np.asarray(data[dims[1]]), np.asarray(data[dims[0]])
-        mesh = ax.pcolormesh(x, y, values, shading="nearest", cmap="cividis", rasterized=True)
-        ax.figure.colorbar(mesh, ax=ax, label=name)
-        hunts = np.char.startswith(verdict_words(data), "hunts").astype(float)
-        if 0.0 < hunts.mean() < 1.0:
-            ax.contour(x, y, hunts, levels=[0.5], colors=[COLOURS["hunts"]], linewidths=1.0)
-        _tidy(ax, names[1], names[0])
-    else:
-        raise ValueError(f"a sweep of one or two axes can be drawn, not of {len(dims)}")
-    if logarithmic:
-        for axis in (ax.xaxis, ax.yaxis)[:len(dims)]:
-            _by_ratio(ax, axis)
-    return ax
+    return picture("curves", drive, axes, quantity=quantity, **options)
 
 
-def _by_ratio(ax: Axes, axis: Any) -> None:
-    """A logarithmic axis with plain numbers, also at 2 and 5 where it spans less than two decades."""
-    (ax.set_xscale if axis is ax.xaxis else ax.set_yscale)("log")
-    low, high = sorted(axis.get_view_interval())
-    axis.set_major_formatter(FuncFormatter(_plain))
-    axis.set_minor_locator(LogLocator(subs=(2.0, 5.0)))
-    axis.set_minor_formatter(FuncFormatter(_plain) if high < 100.0 * low else NullFormatter())
+def map(drive: Drive, axes: AxesLike, quantity: str = "amplitude", target: str = "",
+        **options: Any) -> Axes:
+    """Draw regions and contours over two axes, the first upwards; shade where a target is met."""
+    return picture("map", drive, axes, quantity=quantity, target=target, **options)
 
 
-def _plain(value: float, _: Any) -> str:
-    return f"{value:g}"
+def bifurcation(drive: Drive, axes: AxesLike, quantity: str = "amplitude", **options: Any) -> Axes:
+    """Draw all cycles, stable and unstable, over one axis, with their borders."""
+    return picture("bifurcation", drive, axes, quantity=quantity, **options)
 
 
-def _name_of(data: xarray.Dataset, dimension: str) -> str:
-    """The parameter with its unit: "gearbox.backlash (rad)"."""
-    about = data[dimension].attrs
-    path, unit = str(about.get("path", dimension)), str(about.get("units", "1"))
-    return path if unit == "1" else f"{path} ({unit})"
+def comparison(drive: Drive, axes: AxesLike = (), **options: Any) -> Axes:
+    """Draw step responses for the values of an axis; default the places of the sensor."""
+    return picture("comparison", drive, axes, **options)
+
+
+# ---- of a production run, and of 1960 ------------------------------------------------------------
 
 
 def distribution(study: ToleranceStudy, *, unit: str = "rad", ax: Axes | None = None) -> Axes:
-    """Draw the histogram of amplitudes of a production run.
+    """Draw the amplitudes of a production run."""
+    return draw(_core.tolerance_plot("distribution", study, unit), ax=ax)
 
-    Raises
-    ------
-    ValueError
-        Where no sample hunts.
-    """
-    histogram = study.histogram
-    if not histogram.counts:
-        raise ValueError("no sample hunts: there is no histogram of amplitudes")
-    ax = _axes(ax)
-    ax.stairs(histogram.counts, np.array(histogram.edges) / _unit(unit), fill=True,
-              color=COLOURS["load"], label="hunting")
-    ax.set_title(f"{study.hunting.value:.1%} hunt", fontsize="medium")
-    return _tidy(ax, f"amplitude ({unit})", "samples")
+
+def yield_(study: ToleranceStudy, *, unit: str = "rad", ax: Axes | None = None) -> Axes:
+    """Draw the share of samples up to an amplitude."""
+    return draw(_core.tolerance_plot("yield", study, unit), ax=ax)
+
+
+def indices(study: ToleranceStudy, decided: SensitivityStudy, *, ax: Axes | None = None) -> Axes:
+    """Draw what decides the amplitude: the indices of :func:`gearlash.sensitivity_indices`."""
+    return draw(_core.indices_plot(study, decided), ax=ax)
+
+
+def figure(number: int, *, ax: Axes | None = None) -> Axes:
+    """Draw a figure of the thesis, 2 to 15: exact, and by the program of 1960."""
+    drawn = _core.figure_plot(number, None)
+    if drawn is None:
+        raise ValueError(f"number must be that of a figure, 2 to 15, not {number}")
+    return draw(drawn, ax=ax)

@@ -14,6 +14,7 @@
 #include "base/lists.hpp"
 #include "picture/curve_panel.hpp"
 #include "picture/grid_words.hpp"
+#include "picture/plot_making.hpp"
 
 namespace gearlash {
 namespace {
@@ -53,7 +54,7 @@ struct Drawing {
   double per_parameter = 1.0;  ///< of the axis's
   PlotAxis y{};
 
-  double foot() const { return y.low.value(); }
+  double foot() const { return y.low; }
   MapPoint at(double parameter, double value) const {
     return {parameter / per_parameter, std::max(value, foot())};
   }
@@ -135,28 +136,6 @@ void add_irregular(const BifurcationDiagram& diagram, const Drawing& drawing, Pa
   add(std::move(layer), panel);
 }
 
-/// Borders without those that another one of their word covers.
-std::vector<const MarkedBorder*> distinct(const BifurcationDiagram& diagram, const Axis& axis,
-                                          const Drawing& drawing) {
-  constexpr double together = 0.02;  // of the axes
-  const auto height = [&](const CycleAt& cycle) {
-    return position_on(span_of(drawing.y), std::max(drawing.value(cycle), drawing.foot()));
-  };
-  std::vector<const MarkedBorder*> kept;
-  for (const MarkedBorder& border : diagram.borders) {
-    const auto covers = [&](const MarkedBorder* other) {
-      if (other->word != border.word || other->cycle.has_value() != border.cycle.has_value() ||
-          std::abs(position_on(axis, other->parameter) - position_on(axis, border.parameter)) >
-              together) {
-        return false;
-      }
-      return !border.cycle || std::abs(height(*other->cycle) - height(*border.cycle)) <= together;
-    };
-    if (!any_of(kept, covers)) kept.push_back(&border);
-  }
-  return kept;
-}
-
 /// Marks differ in shape, so that they are read without colour.
 Mark mark_of(const std::string& word) {
   constexpr std::pair<std::string_view, Mark> marks[] = {
@@ -177,20 +156,19 @@ Mark mark_of(const std::string& word) {
 }
 
 /// One legend entry for each word.
-void add_borders(const BifurcationDiagram& diagram, const Axis& axis, const Drawing& drawing,
-                 Panel& panel) {
+void add_borders(const BifurcationDiagram& diagram, const Drawing& drawing, Panel& panel) {
   std::map<std::string, MapCurve> marks;
   std::map<std::string, MapCurve> upright;
-  for (const MarkedBorder* border : distinct(diagram, axis, drawing)) {
-    if (!border->cycle) {
-      append({drawing.at(border->parameter, 0.0), drawing.at(border->parameter, *drawing.y.high)},
-             upright[border->word]);
+  for (const MarkedBorder& border : diagram.borders) {
+    if (!border.cycle) {
+      append({drawing.at(border.parameter, 0.0), drawing.at(border.parameter, drawing.y.high)},
+             upright[border.word]);
       continue;
     }
     // Rest has an amplitude, but no period.
-    const double value = drawing.value(*border->cycle);
+    const double value = drawing.value(*border.cycle);
     if (!std::isfinite(value) || (value == 0.0 && !is_amplitude(drawing.quantity))) continue;
-    marks[border->word].push_back(drawing.at(border->parameter, value));
+    marks[border.word].push_back(drawing.at(border.parameter, value));
   }
   for (const auto& [word, points] : upright) {
     panel.layers.push_back(
@@ -213,7 +191,26 @@ std::string subtitle_of(const BifurcationDiagram& diagram, const Grid& grid) {
 
 }  // namespace
 
-bool has_branches(Quantity quantity) { return value_of({.period = 1.0}, quantity).has_value(); }
+std::vector<Fault> faults_of_branches(const Grid& grid, Quantity quantity,
+                                      const std::vector<std::string>& fields) {
+  constexpr std::size_t most_values = 1000;
+  std::vector<Fault> faults;
+  const Axis& x = grid.axes.back();
+  if (grid.axes.size() > 1) {
+    faults.push_back({fields[0], "given", "must be left out: bifurcation=FILE has branches"});
+  }
+  const bool is_number = !has_words(x, grid.drive);
+  if (!is_number || x.values.size() < 2 || x.values.size() > most_values) {
+    faults.push_back({fields[1], is_number ? fmt::format("{} values", x.values.size()) : "words",
+                      "must have 2 to 1000 numbers for bifurcation=FILE"});
+  }
+  if (!value_of({.period = 1.0}, quantity)) {
+    faults.push_back({fields[2], std::string(name_of(quantity)),
+                      "must be amplitude, motor_amplitude, period, frequency or multiplier for "
+                      "bifurcation=FILE"});
+  }
+  return faults;
+}
 
 Plot bifurcation_plot(const BifurcationDiagram& diagram, const Grid& grid, Quantity quantity) {
   const Axis& axis = grid.axes.front();
@@ -222,7 +219,7 @@ Plot bifurcation_plot(const BifurcationDiagram& diagram, const Grid& grid, Quant
   add_rest(diagram, drawing, panel);
   add_branches(diagram, drawing, panel);
   add_irregular(diagram, drawing, panel);
-  add_borders(diagram, axis, drawing, panel);
+  add_borders(diagram, drawing, panel);
   if (panel.layers.empty()) say("no cycle was found", panel);
   return plot_of(
       "Cycles over " + in_words(axis.path) + ": " + in_words(std::string(name_of(quantity))),

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/lists.hpp"
+#include "picture/plot_making.hpp"
 
 namespace gearlash {
 namespace {
@@ -59,10 +60,10 @@ void explain_curves(const std::string& line, const std::string& mark, double mar
 
 void say(const std::string& reason, Panel& panel) {
   constexpr double middle = 0.5;
-  panel.texts.push_back(
-      {.at = {value_at(span_of(drawn_x(panel)), middle), value_at(span_of(drawn_y(panel)), middle)},
-       .text = reason,
-       .size = 1.0});
+  panel.texts.push_back({.at = {value_at(span_of(finished_x(panel)), middle),
+                                value_at(span_of(finished_y(panel)), middle)},
+                         .text = reason,
+                         .size = 1.0});
 }
 
 Panel bar_panel(const std::vector<Bar>& bars, PlotAxis values, const std::string& value_meaning,
@@ -90,12 +91,12 @@ Panel bar_panel(const std::vector<Bar>& bars, PlotAxis values, const std::string
     place -= 1.0;
   }
   panel.layers = {std::move(whole), std::move(dark)};
-  const PlotAxis drawn = drawn_x(panel);
-  const Bounds data{*drawn.low, *drawn.high};
+  const PlotAxis drawn = finished_x(panel);
+  const Bounds data{drawn.low, drawn.high};
   const Bounds wide = widened(data, 0.04);
   panel.x.low = data.low < 0.0 ? wide.low : 0.0;
   panel.x.high = data.high > 0.0 ? wide.high : 0.0;
-  panel.layers.push_back({.width = 1.0, .points = {{0.0, *panel.y.low}, {0.0, *panel.y.high}}});
+  panel.layers.push_back({.width = 1.0, .points = {{0.0, panel.y.low}, {0.0, panel.y.high}}});
   return panel;
 }
 

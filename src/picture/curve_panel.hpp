@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "picture/plot.hpp"
+#include "picture/plot_making.hpp"
 
 namespace gearlash {
 

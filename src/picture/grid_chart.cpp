@@ -1,13 +1,17 @@
 #include "picture/grid_chart.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "base/lists.hpp"
+#include "base/range_check.hpp"
 #include "picture/curve_panel.hpp"
 #include "picture/grid_words.hpp"
 #include "picture/hunting_curve.hpp"
+#include "picture/plot_making.hpp"
 #include "question/family/evaluation.hpp"
 #include "question/map/hunting_boundary.hpp"
 
@@ -114,6 +118,36 @@ Plot chart_plot(const GridTable& table, Quantity quantity) {
     say(word == "rests" ? "no limit cycle" : word, panel);
   }
   return plot_of(title_of(quantity), subtitle_of(grid), std::move(panel));
+}
+
+std::vector<Fault> faults_of_picture(const Grid& grid, const std::vector<std::string>& fields,
+                                     bool has_curves) {
+  constexpr std::size_t most_curves = 16;  // a longer legend leaves no room for them
+  constexpr double narrowest_share =
+      1e-3;  // of the larger end: else its numbers have too many digits
+  std::vector<Fault> faults;
+  for (std::size_t i = 0; i < grid.axes.size(); ++i) {
+    const Axis& axis = grid.axes[i];
+    const double first = axis.values.front();
+    const double last = axis.values.back();
+    const auto refuse = [&](const std::string& value, const std::string& permitted) {
+      faults.push_back(
+          {fields.empty() ? axis.path : fields[i], value,
+           "must " + permitted + " in a picture; tables (.csv, .json, .nc) may have it"});
+    };
+    const bool are_curves = has_curves && i + 1 < grid.axes.size();
+    if (!std::isfinite(last)) {
+      refuse(exact_text(last), "be finite");
+    } else if (are_curves && axis.values.size() > most_curves) {
+      refuse(fmt::format("{} values", axis.values.size()),
+             fmt::format("be at most {}", most_curves));
+    } else if (!are_curves && !has_words(axis, grid.drive) && axis.values.size() > 1 &&
+               last - first < narrowest_share * std::abs(last)) {
+      refuse(exact_text(first) + " to " + exact_text(last),
+             fmt::format("span {:g} of itself or more", narrowest_share));
+    }
+  }
+  return faults;
 }
 
 }  // namespace gearlash

@@ -11,6 +11,7 @@
 #include "picture/curve_panel.hpp"
 #include "picture/grid_words.hpp"
 #include "picture/paper.hpp"
+#include "picture/plot_making.hpp"
 #include "question/family/evaluation.hpp"
 #include "question/map/contours.hpp"
 
@@ -23,6 +24,13 @@ constexpr Colour dark{8, 44, 107};
 const Layer boundary_style{.colour = "#d55e00", .width = 3.0};
 const Layer inner_style{.colour = "#606060", .width = 1.5, .dashes = "6,4"};
 const Layer ceiling_style{.colour = "#7b3294", .width = 1.0, .dashes = "2,3"};
+
+/// The proved bound of every motion whose size the quantity is.
+std::optional<Quantity> ceiling_over(Quantity quantity) {
+  if (quantity == Quantity::amplitude) return Quantity::ceiling;
+  if (quantity == Quantity::motor_amplitude) return Quantity::motor_ceiling;
+  return std::nullopt;
+}
 
 /// Round in the drawn unit.
 std::vector<double> levels_of(const GridTable& table, Quantity quantity) {
@@ -236,10 +244,17 @@ Plot cell_plot(const GridTable& table, Quantity quantity) {
 
 }  // namespace
 
-std::optional<Quantity> ceiling_over(Quantity quantity) {
-  if (quantity == Quantity::amplitude) return Quantity::ceiling;
-  if (quantity == Quantity::motor_amplitude) return Quantity::motor_ceiling;
-  return std::nullopt;
+std::vector<Quantity> quantities_drawn(const Grid& grid, Quantity quantity, bool has_ceiling) {
+  std::vector<Quantity> drawn = {Quantity::growth_at_rest, quantity};
+  const auto ceiling = ceiling_over(quantity);
+  if (has_ceiling && ceiling && Family(grid).engines().search) drawn.push_back(*ceiling);
+  return drawn;
+}
+
+std::optional<MapPoint> place_on_map(const Grid& grid) {
+  const std::optional<double> x = present_value(grid.axes[1], grid.drive);
+  const std::optional<double> y = present_value(grid.axes[0], grid.drive);
+  return x && y ? std::optional(MapPoint{*x, *y}) : std::nullopt;
 }
 
 Plot map_plot(const GridTable& table, Quantity quantity) {

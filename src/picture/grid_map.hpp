@@ -3,8 +3,8 @@
 
 #include <optional>
 
+#include "gearlash/plot.hpp"
 #include "output/grid_table.hpp"
-#include "picture/plot.hpp"
 
 namespace gearlash {
 
@@ -16,8 +16,11 @@ namespace gearlash {
 /// cells has its boundaries.
 Plot map_plot(const GridTable& table, Quantity quantity);
 
-/// The quantity whose contours a map of searched drives shows too: the proved bound of every
-/// motion. Empty for a quantity without one.
-std::optional<Quantity> ceiling_over(Quantity quantity);
+/// What a table needs for pictures of the quantity. A map without a target of searched drives shows
+/// the proved bound of every motion too.
+std::vector<Quantity> quantities_drawn(const Grid& grid, Quantity quantity, bool has_ceiling);
+
+/// Where the grid's drive lies on its map; empty where it lacks the value of an axis.
+std::optional<MapPoint> place_on_map(const Grid& grid);
 
 }  // namespace gearlash

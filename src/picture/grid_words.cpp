@@ -91,13 +91,13 @@ PlotAxis plot_axis(const Axis& axis, const Drive& drive) {
   drawn.high = *high / per;
   const bool is_of_words = has_words(axis, drive);
   if (!is_of_words && axis.values.size() > 1) return drawn;
-  const double room = is_of_words ? 0.5 : *low > 0.0 ? 0.1 * *drawn.low : 0.1;
+  const double room = is_of_words ? 0.5 : *low > 0.0 ? 0.1 * drawn.low : 0.1;
   for (const double value : axis.values) {
     drawn.tics.push_back({value / per, is_of_words ? text_of(axis, drive, value)
                                                    : fmt::format("{:.7g}", value / per)});
   }
-  *drawn.low -= room;
-  *drawn.high += room;
+  drawn.low -= room;
+  drawn.high += room;
   return drawn;
 }
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "gearlash/plot.hpp"
 #include "input/units.hpp"
-#include "picture/plot.hpp"
 #include "question/axis.hpp"
 
 namespace gearlash {

@@ -10,8 +10,8 @@
 #include "gearlash/bounds.hpp"
 #include "gearlash/drive.hpp"
 #include "gearlash/motion.hpp"
+#include "gearlash/plot.hpp"
 #include "input/units.hpp"
-#include "picture/plot.hpp"
 
 namespace gearlash {
 

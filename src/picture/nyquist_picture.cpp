@@ -7,6 +7,7 @@
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -15,6 +16,7 @@
 #include "base/overloaded.hpp"
 #include "output/describe_report.hpp"
 #include "picture/paper.hpp"
+#include "picture/plot_making.hpp"
 #include "question/loop/describing/harmonic_balance.hpp"
 
 namespace gearlash {
@@ -258,55 +260,51 @@ struct DrawnCurve {
   PaperLine seen = {};  ///< its visible points, not too close
 };
 
-/// Adds the curve's points in and near the window. The parameter runs from `low` to `high`, evenly
+/// Sets the curve's points in and near the panel. The parameter runs from `low` to `high`, evenly
 /// in its logarithm.
 void trace(const std::function<Complex(double parameter)>& curve, const Bounds& range,
-           const Paper& paper, DrawnCurve& drawn) {
+           const Panel& panel, DrawnCurve& drawn) {
   constexpr int steps = 20'000;
-  constexpr double near = 240.0;  // pixels
-  constexpr double apart = 1.5;
-  std::optional<Complex> last;
+  constexpr double apart = 1.5;  // pixels
+  const Paper paper(panel);
+  MapCurve points;
+  Complex last = std::numeric_limits<double>::infinity();
   for (int i = 0; i <= steps; ++i) {
-    const Complex value =
-        curve(range.low * std::pow(range.high / range.low, static_cast<double>(i) / steps));
-    const Complex place = paper.on_paper(map_point(value));
-    if (!is_finite(value) || !paper.holds(place, near)) {
-      if (last) append({}, drawn.layer.points);
-      last.reset();
-      continue;
-    }
-    if (last && std::abs(place - *last) < apart) continue;
-    drawn.layer.points.push_back(map_point(value));
+    const MapPoint point = map_point(
+        curve(range.low * std::pow(range.high / range.low, static_cast<double>(i) / steps)));
+    const Complex place = paper.on_paper(point);
+    if (std::abs(place - last) < apart) continue;
+    points.push_back(point);
     if (paper.holds(place)) drawn.seen.push_back(place);
     last = place;
   }
+  drawn.layer.points = near(std::move(points), panel);
 }
 
 /// −1/N, from the amplitude on at which it begins.
-void trace_inverse_gain(const Nonlinearity& nonlinearity, double least, const Paper& paper,
+void trace_inverse_gain(const Nonlinearity& nonlinearity, double least, const Panel& panel,
                         DrawnCurve& drawn) {
   // Without a least amplitude, −1/N is proportional to the amplitude.
-  const double height =
-      paper.on_map(PaperPoint(0.0, paper.height())).y - paper.on_map(PaperPoint()).y;
+  const double height = panel.y.high - panel.y.low;
   const double size = least > 0.0 ? least : height / std::abs(inverse_gain(nonlinearity, 1.0));
   trace([&](double excess) { return inverse_gain(nonlinearity, least + excess); },
-        {1e-8 * size, 1e6 * size}, paper, drawn);
+        {1e-8 * size, 1e6 * size}, panel, drawn);
 }
 
-std::vector<DrawnCurve> traced_curves(const NyquistPicture& picture, const Paper& paper) {
+std::vector<DrawnCurve> traced_curves(const NyquistPicture& picture, const Panel& panel) {
   const std::array inverse_styles = {Layer{.colour = "#d55e00", .dashes = "10,4"},
                                      Layer{.colour = "#009e73", .dashes = "4,3"},
                                      Layer{.colour = "#cc79a7", .dashes = "12,3,3,3"}};
   const TransferFunction& loop = picture.analyses.front().loop;
   std::vector<DrawnCurve> curves = {{{.name = "L(jω)", .colour = "#0072b2"}, frequencies(picture)}};
   trace([&](double frequency) { return loop_at(loop, frequency); }, natural_frequency_range(loop),
-        paper, curves.front());
+        panel, curves.front());
   for (const DescribingAnalysis& analysis : picture.analyses) {
     const InverseGain inverse = curve_of(analysis.nonlinearity, picture.is_normalized);
     DrawnCurve curve{inverse_styles[(curves.size() - 1) % inverse_styles.size()],
                      amplitudes(analysis.nonlinearity, inverse)};
     curve.layer.name = "−1/N(A)" + distinction(picture, analysis) + inverse.meaning;
-    trace_inverse_gain(analysis.nonlinearity, inverse.least, paper, curve);
+    trace_inverse_gain(analysis.nonlinearity, inverse.least, panel, curve);
     curves.push_back(std::move(curve));
   }
   return curves;
@@ -378,7 +376,44 @@ void add_marks(const std::vector<KeyPoint>& points, const std::vector<DrawnCurve
   }
 }
 
+/// A part as a question has it, and as the title of its picture has it.
+struct DrawnPart {
+  DescribedPart part;
+  std::string_view word;
+  const char* title;
+};
+constexpr DrawnPart drawn_parts[] = {
+    {DescribedPart::gap_load_held, "gap", "The gap by its describing functions"},
+    {DescribedPart::elastic_gap, "elastic-gap",
+     "A gap with elastic faces by its describing function"},
+    {DescribedPart::torque_limit, "torque-limit", "The torque limit by its describing function"},
+    {DescribedPart::coulomb_friction, "coulomb-friction",
+     "Coulomb friction by its describing function"},
+    {DescribedPart::dead_band, "dead-band", "The dead band by its describing function"},
+    {DescribedPart::relay, "relay", "The relay by its describing function"}};
+
 }  // namespace
+
+std::vector<std::string> parts_to_draw() {
+  return of_each<std::string>(drawn_parts, &DrawnPart::word);
+}
+
+Plot nyquist_plot(const DescribeReport& report, std::string_view part) {
+  for (const DescribingAnalysis& analysis : report.analyses) {
+    if (!is_in_loop(analysis)) continue;
+    for (const DrawnPart& drawn : drawn_parts) {
+      const bool is_asked = part.empty() || drawn.word == part;
+      if (!is_asked || loop_analyses({analysis}, drawn.part).empty()) continue;
+      return nyquist_plot({.title = drawn.title,
+                           .analyses = loop_analyses(report.analyses, drawn.part),
+                           .exact = drive::exact_motions(report.answer),
+                           .angle = report.drive.angle_unit,
+                           .is_normalized = report.is_normalized});
+    }
+  }
+  if (!part.empty()) refuse("part", part, "must be a part that the drive has inside its loop");
+  refuse("picture", "nyquist", "must be left out: this drive feeds nothing back");
+}
 
 std::vector<DescribingAnalysis> loop_analyses(const std::vector<DescribingAnalysis>& analyses,
                                               DescribedPart part) {
@@ -396,7 +431,7 @@ Plot nyquist_plot(const NyquistPicture& picture) {
   Panel panel = critical_panel(picture, points);
   const Paper paper(panel);
   panel.layers.push_back(zero_lines(panel, {.colour = "#888888", .width = 0.8}));
-  const std::vector<DrawnCurve> curves = traced_curves(picture, paper);
+  const std::vector<DrawnCurve> curves = traced_curves(picture, panel);
   for (const DrawnCurve& curve : curves) {
     if (!curve.layer.points.empty()) panel.layers.push_back(curve.layer);
     panel.layers.push_back({.kind = LayerKind::area,

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "gearlash/plot.hpp"
 #include "input/units.hpp"
-#include "picture/plot.hpp"
+#include "output/describe_report.hpp"
 #include "question/loop/describing/describing.hpp"
 
 namespace gearlash {
@@ -23,6 +25,12 @@ struct NyquistPicture {
 /// loop.
 std::vector<drive::DescribingAnalysis> loop_analyses(
     const std::vector<drive::DescribingAnalysis>& analyses, drive::DescribedPart part);
+
+/// The words for parts: "gap", "relay", ….
+std::vector<std::string> parts_to_draw();
+
+/// The part of that name, else the first one in a loop. Throws InvalidInput where there is none.
+Plot nyquist_plot(const DescribeReport& report, std::string_view part);
 
 /// L(jω) with marks of frequency, and −1/N(A) with marks of amplitude and an arrow towards
 /// growing A. Cycles lie where the curves meet (stable: full circles, unstable: open). Each exact

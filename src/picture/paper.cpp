@@ -7,6 +7,7 @@
 
 #include "base/lists.hpp"
 #include "output/columns.hpp"
+#include "picture/plot_making.hpp"
 
 namespace gearlash {
 namespace {
@@ -77,14 +78,6 @@ double slope_of(const PaperPoint& direction) {
   return slope > 90.0 ? slope - 180.0 : slope <= -90.0 ? slope + 180.0 : slope;
 }
 
-/// Points along the middle of a text.
-PaperLine middle_of(const PaperPoint& from, const PaperPoint& to) {
-  const double parts = std::ceil(std::abs(to - from) / half_letter) + 1.0;
-  PaperLine points;
-  for (double i = 0.0; i <= parts; i += 1.0) points.push_back(from + i / parts * (to - from));
-  return points;
-}
-
 }  // namespace
 
 PaperPoint Paper::on_paper(const MapPoint& point) const {
@@ -129,62 +122,75 @@ PaperLine thinned(const PaperLine& line) {
   return thin;
 }
 
+PaperLine TextPlacer::middle_of(const Spot& spot) {
+  const double parts = std::ceil(2.0 * std::abs(spot.half) / half_letter) + 1.0;
+  PaperLine points;
+  for (double i = 0.0; i <= parts; i += 1.0) {
+    points.push_back(spot.centre + (2.0 * i / parts - 1.0) * spot.half);
+  }
+  return points;
+}
+
+std::optional<std::size_t> TextPlacer::take_best(const std::vector<Spot>& spots, double enough,
+                                                 bool must, const PaperLine* own) {
+  std::optional<std::size_t> best;
+  double best_score = -std::numeric_limits<double>::infinity();
+  for (const std::size_t i : indices(spots.size())) {
+    const double clear = clearance(spots[i], own);
+    const double score = std::min(clear, enough) + spots[i].merit;
+    if ((clear <= 0.0 && !must) || score <= best_score) continue;
+    best_score = score;
+    best = i;
+  }
+  if (best) add_all(taken_, middle_of(spots[*best]));
+  return best;
+}
+
 std::optional<PaperPoint> TextPlacer::beside(const PaperPoint& point, const std::string& text,
                                              double size, bool must) {
   const double half_width = 0.5 * width_of(text, size);
-  std::optional<PaperPoint> best;
-  double best_score = must ? -std::numeric_limits<double>::infinity() : 0.0;
+  std::vector<Spot> spots;
   for (const double distance : {5.0, 12.0, 22.0, 36.0}) {
     for (int direction = 0; direction < 16; ++direction) {
-      constexpr double enough = 4.0;  // pixels
       const PaperPoint way = std::polar(1.0, std::numbers::pi * direction / 8.0);
-      const PaperPoint centre = point + PaperPoint{way.real() * (half_width + distance),
-                                                   way.imag() * (half_letter + distance)};
-      const double clear = clearance(centre - half_width, centre + half_width, nullptr);
-      const double score = std::min(clear, enough) - 0.02 * distance * (clear > 0.0 ? 1.0 : 0.0);
-      if (score <= best_score) continue;
-      best_score = score;
-      best = centre;
+      spots.push_back({point + PaperPoint{way.real() * (half_width + distance),
+                                          way.imag() * (half_letter + distance)},
+                       half_width, -0.02 * distance});
     }
   }
-  if (best) take(*best - half_width, *best + half_width);
-  return best;
+  constexpr double enough = 4.0;  // pixels
+  const auto best = take_best(spots, enough, must, nullptr);
+  return best ? std::optional(spots[*best].centre) : std::nullopt;
 }
 
 std::optional<TextPlacer::InLine> TextPlacer::along(const PaperLine& line, const std::string& text,
                                                     double size) {
+  constexpr int candidates = 60;
+  constexpr double straight = 0.96;
   const double length = length_of(line);
   const double gap = width_of(text, size) + letter_width;
-  std::optional<InLine> best;
-  double best_score = 0.0;
-  constexpr double candidates = 60.0;
-  constexpr double straight = 0.96;
-  for (double i = 0.0; i <= candidates && length > 2.0 * gap; i += 1.0) {
-    const double begin = 0.25 * gap + (length - 1.5 * gap) * i / candidates;
-    auto [before, rest] = cut(line, begin);
-    auto [within, after] = cut(rest, gap);
-    const PaperPoint from = within.front();
-    const PaperPoint to = within.back();
-    if (std::abs(to - from) < straight * gap) continue;
-    const double clear = clearance(from, to, &line);
-    const double from_middle = std::abs(2.0 * i / candidates - 1.0);
-    const double score =
-        std::min(clear, 8.0 * half_letter) + 2.0 * half_letter * (1.0 - from_middle);
-    if (clear <= 0.0 || score <= best_score) continue;
-    best_score = score;
-    best = {0.5 * (from + to), slope_of(to - from), {std::move(before), std::move(after)}};
+  std::vector<Spot> spots;
+  std::vector<double> begins;
+  for (int i = 0; i <= candidates && length > 2.0 * gap; ++i) {
+    const double share = static_cast<double>(i) / candidates;
+    const double begin = 0.25 * gap + (length - 1.5 * gap) * share;
+    const PaperLine within = cut(cut(line, begin).second, gap).first;
+    const PaperPoint way = within.back() - within.front();
+    if (std::abs(way) < straight * gap) continue;
+    spots.push_back({within.front() + 0.5 * way, 0.5 * way,
+                     2.0 * half_letter * (1.0 - std::abs(2.0 * share - 1.0))});
+    begins.push_back(begin);
   }
-  if (best) {
-    const PaperPoint half = std::polar(0.5 * gap, best->slope * std::numbers::pi / 180.0);
-    take(best->centre - half, best->centre + half);
-  }
-  return best;
+  const auto best = take_best(spots, 8.0 * half_letter, false, &line);
+  if (!best) return std::nullopt;
+  return InLine{spots[*best].centre,
+                slope_of(spots[*best].half),
+                {cut(line, begins[*best]).first, cut(line, begins[*best] + gap).second}};
 }
 
-double TextPlacer::clearance(const PaperPoint& from, const PaperPoint& to,
-                             const PaperLine* own) const {
+double TextPlacer::clearance(const Spot& spot, const PaperLine* own) const {
   double clear = std::numeric_limits<double>::infinity();
-  for (const PaperPoint& point : middle_of(from, to)) {
+  for (const PaperPoint& point : middle_of(spot)) {
     clear = std::min({clear, point.real(), panel_width - point.real(), point.imag() - half_letter,
                       height_ - point.imag() - half_letter});
     for (const PaperPoint& other : taken_) {
@@ -196,11 +202,6 @@ double TextPlacer::clearance(const PaperPoint& from, const PaperPoint& to,
     }
   }
   return clear;
-}
-
-void TextPlacer::take(const PaperPoint& from, const PaperPoint& to) {
-  const PaperLine points = middle_of(from, to);
-  add_all(taken_, points);
 }
 
 }  // namespace gearlash

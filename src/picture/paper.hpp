@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "picture/plot.hpp"
+#include "picture/plot_making.hpp"
 
 namespace gearlash {
 
@@ -68,10 +68,20 @@ class TextPlacer {
   std::optional<InLine> along(const PaperLine& line, const std::string& text, double size);
 
  private:
-  /// From a text whose middle runs from one point to the other to the nearest edge, text or line
-  /// other than `own`; negative if it would touch.
-  double clearance(const PaperPoint& from, const PaperPoint& to, const PaperLine* own) const;
-  void take(const PaperPoint& from, const PaperPoint& to);
+  /// A place for a text, from its centre to its end; better with more merit, in pixels.
+  struct Spot {
+    PaperPoint centre;
+    PaperPoint half;
+    double merit;
+  };
+  /// Points along the middle of a text.
+  static PaperLine middle_of(const Spot& spot);
+  /// The best spot that touches nothing, or the best of all if it `must` be; it is taken. Room
+  /// beyond `enough` pixels counts no more.
+  std::optional<std::size_t> take_best(const std::vector<Spot>& spots, double enough, bool must,
+                                       const PaperLine* own);
+  /// To the nearest edge, text or line other than `own`; negative if it would touch.
+  double clearance(const Spot& spot, const PaperLine* own) const;
 
   std::vector<PaperLine> lines_;
   double height_;

@@ -9,6 +9,7 @@
 #include "model/reduced_drive.hpp"
 #include "picture/curve_panel.hpp"
 #include "picture/motion_style.hpp"
+#include "picture/plot_making.hpp"
 
 namespace gearlash {
 namespace {
@@ -63,16 +64,7 @@ MapPoint motor_at(const DrawnPoint& point) {
 }
 using ShaftAt = MapPoint (*)(const DrawnPoint&);
 
-/// More than a window's width outside, where nothing is seen of it.
-bool is_far_away(const MapPoint& point, const PhaseWindow& window) {
-  const auto is_far = [](double value, const Bounds& range) {
-    const double width = range.high - range.low;
-    return value < range.low - width || value > range.high + width;
-  };
-  return is_far(point.x, window.positions) || is_far(point.y, window.speeds);
-}
-
-ShaftLine line_of(const std::vector<DrawnPiece>& pieces, ShaftAt at, const PhaseWindow* window) {
+ShaftLine line_of(const std::vector<DrawnPiece>& pieces, ShaftAt at) {
   double fastest = 0.0;
   for_each_point(pieces, [&](const DrawnPoint& point) {
     fastest = std::max({fastest, std::abs(point.load_speed), std::abs(point.motor_speed)});
@@ -86,13 +78,7 @@ ShaftLine line_of(const std::vector<DrawnPiece>& pieces, ShaftAt at, const Phase
       append({}, drawn.line);
       append({at(*last), first}, drawn.leaps);
     }
-    for (const DrawnPoint& point : piece.points) {
-      if (window != nullptr && is_far_away(at(point), *window)) {
-        append({}, drawn.line);
-      } else {
-        drawn.line.push_back(at(point));
-      }
-    }
+    for (const DrawnPoint& point : piece.points) drawn.line.push_back(at(point));
     last = &piece.points.back();
   }
   return drawn;
@@ -192,11 +178,10 @@ class PhasePanel {
 
   void add(Layer layer, const std::string& name, ShaftLine drawn) {
     layer.name = name;
-    layer.points = std::move(drawn.line);
+    layer.points = near(std::move(drawn.line), panel);
     panel.layers.push_back(std::move(layer));
     if (drawn.leaps.empty()) return;
-    panel.layers.push_back(leap_style);
-    panel.layers.back().points = std::move(drawn.leaps);
+    panel.layers.push_back(with(leap_style, near(std::move(drawn.leaps), panel)));
   }
 
   void add_thin(MotionRole role, const std::vector<DrawnPiece>& pieces) {
@@ -204,7 +189,7 @@ class PhasePanel {
     const Layer& style =
         way_styles[static_cast<int>(role) - static_cast<int>(MotionRole::to_rest)].line;
     add(style, legend_of(is_of_motor ? "motor" : "load", style.name),
-        line_of(pieces, is_of_motor ? motor_at : load_at, window_));
+        line_of(pieces, is_of_motor ? motor_at : load_at));
   }
 
   /// `subjects`: the number of those before.
@@ -218,10 +203,10 @@ class PhasePanel {
                          : drawn.is_cycle                     ? 2.8
                                                               : 2.0;
     add({.colour = colour.load, .width = width, .dashes = is_unstable ? "2,2" : ""},
-        legend_of("load", drawn.name), line_of(pieces, load_at, nullptr));
+        legend_of("load", drawn.name), line_of(pieces, load_at));
     add({.colour = colour.motor, .width = 0.8 * width, .dashes = is_unstable ? "6,3,1,3" : "8,4"},
         legend_of("motor", drawn.name_of_motor.empty() ? drawn.name : drawn.name_of_motor),
-        line_of(pieces, motor_at, nullptr));
+        line_of(pieces, motor_at));
     if (drawn.role != MotionRole::subject) return;
     ++subjects;
     MapCurve impacts;

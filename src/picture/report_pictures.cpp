@@ -14,6 +14,7 @@
 #include "output/parameter_text.hpp"
 #include "picture/curve_panel.hpp"
 #include "picture/drawn_motion.hpp"
+#include "picture/plot_making.hpp"
 
 namespace gearlash {
 namespace {
@@ -41,83 +42,66 @@ double end_of_change(const NamedCurve& curve, double near) {
   return away == curve.line.rend() ? 0.0 : away->x;
 }
 
-Plot plot_of_run(const ToleranceReport& report, const char* title, Panel panel) {
+Plot plot_of_run(const ToleranceStudy& study, const char* title, Panel panel) {
   return plot_of(title,
-                 fmt::format("{} samples, {} % of them hunt", report.study.sampling.samples(),
-                             significant(100.0 * report.study.hunting.value, 3)),
+                 fmt::format("{} samples, {} % of them hunt", study.sampling.samples(),
+                             significant(100.0 * study.hunting.value, 3)),
                  std::move(panel));
 }
 
-Plot plot_over_amplitude(const ToleranceReport& report, const char* title, PlotAxis percent,
-                         MapCurve line) {
-  const double last = report.study.histogram.edges.back();
+Panel panel_over_amplitude(const AmplitudeHistogram& histogram, const AngleUnit& angle,
+                           PlotAxis percent, MapCurve line) {
+  for (MapPoint& point : line) point.x = angle.from_radians(point.x);
   Panel panel{.x = {.name = "amplitude of the limit cycle",
-                    .unit = report.drive.nominal.angle_unit.name,
+                    .unit = angle.name,
                     .low = 0.0,
-                    .high = report.drive.nominal.angle_unit.from_radians(last)},
+                    .high = angle.from_radians(histogram.edges.back())},
               .y = std::move(percent)};
   add_curves({{.line = std::move(line)}}, 0.0, panel);
-  return plot_of_run(report, title, std::move(panel));
+  return panel;
 }
 
 /// The samples that hunt in each bin, in per cent of all samples.
-Plot distribution_of(const ToleranceReport& report) {
-  const AmplitudeHistogram& histogram = report.study.histogram;
-  const double all = static_cast<double>(report.study.sampling.samples());
-  MapCurve line;
-  const auto add = [&](double edge, double percent) {
-    line.push_back({report.drive.nominal.angle_unit.from_radians(edge), percent});
-  };
-  add(histogram.edges.front(), 0.0);
+Panel distribution_of(const AmplitudeHistogram& histogram, double all, const AngleUnit& angle) {
+  MapCurve line = {{histogram.edges.front(), 0.0}};
   for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
     const double percent = 100.0 * static_cast<double>(histogram.counts[i]) / all;
-    add(histogram.edges[i], percent);
-    add(histogram.edges[i + 1], percent);
+    add_all(line, MapCurve{{histogram.edges[i], percent}, {histogram.edges[i + 1], percent}});
   }
-  add(histogram.edges.back(), 0.0);
-  return plot_over_amplitude(
-      report, "Amplitudes of a production run",
+  line.push_back({histogram.edges.back(), 0.0});
+  return panel_over_amplitude(
+      histogram, angle,
       {.name = fmt::format("samples in each of {} steps", histogram.counts.size()),
        .unit = "%",
        .low = 0.0},
       std::move(line));
 }
 
-Plot yield_of(const ToleranceReport& report) {
-  const AmplitudeHistogram& histogram = report.study.histogram;
-  const double all = static_cast<double>(report.study.sampling.samples());
-  MapCurve line;
+Panel yield_of(const AmplitudeHistogram& histogram, double all, const AngleUnit& angle) {
   double samples = static_cast<double>(histogram.quiet);
-  const auto add = [&](double edge) {
-    line.push_back({report.drive.nominal.angle_unit.from_radians(edge), 100.0 * samples / all});
-  };
-  add(0.0);
-  add(histogram.edges.front());
+  MapCurve line = {{0.0, 100.0 * samples / all}, {histogram.edges.front(), 100.0 * samples / all}};
   for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
     samples += static_cast<double>(histogram.counts[i]);
-    add(histogram.edges[i + 1]);
+    line.push_back({histogram.edges[i + 1], 100.0 * samples / all});
   }
-  return plot_over_amplitude(
-      report, "Yield against a limit of the amplitude",
+  return panel_over_amplitude(
+      histogram, angle,
       {.name = "samples up to that amplitude", .unit = "%", .low = 0.0, .high = 100.0},
       std::move(line));
 }
 
-std::vector<Bar> indices_of(const ToleranceReport& report) {
-  std::vector<Bar> bars;
-  for (const NumberSensitivity& number : report.sensitivities.numbers) {
-    if (!number.of_amplitude) continue;
-    bars.push_back({number.path, std::max(0.0, number.of_amplitude->total.value),
-                    std::max(0.0, number.of_amplitude->first_order.value)});
-  }
-  sort_by(bars, [](const Bar& bar) { return -bar.value; });
-  return bars;
+[[noreturn]] void refuse_picture(const char* kind, const std::string& why) {
+  refuse("picture", kind, "must be left out: " + why);
 }
 
 }  // namespace
 
 Plot ceiling_plot(const AnswerReport& report) {
   const Ceiling& ceiling = *report.answer.ceiling;
+  if (ceiling.terms.empty()) {
+    refuse_picture("ceiling", ceiling.load ? "this drive has no gap, dry friction or encoder"
+                                           : ceiling.reason);
+  }
   std::vector<Bar> bars = of_each(ceiling.terms, [&](const CeilingTerm& term) {
     return Bar{.name = term.source, .value = report.drive.angle_unit.from_radians(term.load)};
   });
@@ -129,7 +113,7 @@ Plot ceiling_plot(const AnswerReport& report) {
       bar_panel(bars, {.name = "term of the ceiling", .unit = report.drive.angle_unit.name}));
 }
 
-std::optional<Plot> tornado_plot(const Jacobian& sensitivity) {
+Plot tornado_plot(const Jacobian& sensitivity) {
   const Quantity quantity = quantity_of_effect(sensitivity);
   const bool has_amplitude = quantity == Quantity::amplitude;
   std::vector<Bar> bars;
@@ -139,7 +123,10 @@ std::optional<Plot> tornado_plot(const Jacobian& sensitivity) {
       bars.push_back({sensitivity.paths[parameter], *elasticity});
     }
   }
-  if (bars.empty()) return std::nullopt;
+  if (bars.empty()) {
+    const std::string& why = sensitivity.reason;
+    refuse_picture("tornado", "this drive has no sensitivities" + (why.empty() ? why : "; " + why));
+  }
   const std::string name = has_amplitude ? "amplitude" : "growth at rest";
   return plot_of(has_amplitude ? "What the amplitude of the limit cycle depends on"
                                : "What the growth at rest depends on",
@@ -177,16 +164,31 @@ Plot comparison_plot(const ComparisonReport& report) {
                  std::move(panel));
 }
 
-Plot tolerance_plot(const ToleranceReport& report, std::string_view kind) {
-  const std::vector<Bar> indices = indices_of(report);
-  if (report.study.histogram.edges.empty() || indices.empty()) {
-    refuse("--plot", kind, "must be left out: no sample hunts, or all alike");
+Plot tolerance_plot(PictureKind kind, const ToleranceStudy& study, const AngleUnit& angle) {
+  const AmplitudeHistogram& histogram = study.histogram;
+  const bool is_yield = kind == PictureKind::yield;
+  if (histogram.edges.empty()) {
+    refuse_picture(is_yield ? "yield" : "distribution", "no sample hunts, or all alike");
   }
-  if (kind == "distribution") return distribution_of(report);
-  if (kind == "yield") return yield_of(report);
+  const auto all = static_cast<double>(study.sampling.samples());
+  return is_yield ? plot_of_run(study, "Yield against a limit of the amplitude",
+                                yield_of(histogram, all, angle))
+                  : plot_of_run(study, "Amplitudes of a production run",
+                                distribution_of(histogram, all, angle));
+}
+
+Plot indices_plot(const ToleranceStudy& study, const SensitivityStudy& sensitivities) {
+  std::vector<Bar> bars;
+  for (const NumberSensitivity& number : sensitivities.numbers) {
+    if (!number.of_amplitude) continue;
+    bars.push_back({number.path, std::max(0.0, number.of_amplitude->total.value),
+                    std::max(0.0, number.of_amplitude->first_order.value)});
+  }
+  if (bars.empty()) refuse_picture("indices", "no sample hunts, or all alike");
+  sort_by(bars, [](const Bar& bar) { return -bar.value; });
   return plot_of_run(
-      report, "What decides the amplitude",
-      bar_panel(indices, {.name = "share of the variance (Sobol's indices)"}, "in all", "alone"));
+      study, "What decides the amplitude",
+      bar_panel(bars, {.name = "share of the variance (Sobol's indices)"}, "in all", "alone"));
 }
 
 }  // namespace gearlash

@@ -6,6 +6,7 @@
 #include "model/signal.hpp"
 #include "output/report_units.hpp"
 #include "picture/motion_style.hpp"
+#include "picture/plot_making.hpp"
 #include "picture/shown_end.hpp"
 
 namespace gearlash {
@@ -14,7 +15,6 @@ namespace {
 const Layer gap_style{
     .kind = LayerKind::area, .name = "gap, ± half the backlash", .colour = "#dcdcdc"};
 const Layer apart_style{.kind = LayerKind::area, .name = "faces apart", .colour = "#fdf3dd"};
-const Layer step_style{.name = "encoder steps", .colour = "#3d7ea6", .width = 1.0, .dashes = "2,3"};
 const Layer reading_style{.name = "encoder reading", .colour = "#3d7ea6", .width = 1.0};
 const Layer reference_style{
     .name = "reference", .colour = "#555555", .width = 1.2, .dashes = "10,5,2,5"};
@@ -24,12 +24,6 @@ const Layer face_style{.name = "faces", .colour = "#909090", .width = 3.0};
 const Layer gap_line_style{.width = 1.3};
 const Layer limit_style{.colour = "#aa0000", .width = 1.2, .dashes = "3,3"};
 const Layer torque_style{.colour = "#009e73", .width = 1.4};
-
-Layer layer_of(const Layer& style, MapCurve points) {
-  Layer layer = style;
-  layer.points = std::move(points);
-  return layer;
-}
 
 Extent heights_of(const MapCurve& points) {
   Extent heights;
@@ -92,21 +86,21 @@ class TimeColumn {
   double origin(const DrawnPoint& point) const { return is_relative_ ? point.reference : 0.0; }
 
   /// A horizontal line.
-  MapCurve at(double value) const { return {{*x_.low, value}, {*x_.high, value}}; }
+  MapCurve at(double value) const { return {{x_.low, value}, {x_.high, value}}; }
 
   Panel panel(const std::string& name, const std::string& unit, const Bounds& range,
               double height) const {
     Panel panel{.x = x_,
                 .y = {.name = name, .unit = unit, .low = range.low, .high = range.high},
                 .height = height};
-    panel.layers.push_back(layer_of(apart_style, apart(range)));
+    panel.layers.push_back(with(apart_style, apart(range)));
     if (panel.layers.front().points.empty()) panel.layers.clear();
     return panel;
   }
 
   /// The intervals with separated faces; those too close to distinguish are merged.
   MapCurve apart(const Bounds& range) const {
-    const double smallest = (*x_.high - from_) / 2000.0;
+    const double smallest = (x_.high - from_) / 2000.0;
     std::vector<Bounds> intervals;
     for (const DrawnPiece& piece : response_.pieces) {
       const double begin = std::max(from_, piece.points.front().time);
@@ -140,77 +134,40 @@ class TimeColumn {
     for (const double end : {positions.low, positions.high}) range.include(end);
     Panel drawn = panel(is_relative_ ? "from the reference" : "position",
                         response_.picture.drive.angle_unit.name, range, 270.0);
-    if (half > 0.0) drawn.layers.push_back(layer_of(gap_style, std::move(around)));
-    MapCurve edges;
-    for (const double edge : encoder_edges(range)) append(at(edge), edges);
-    if (!edges.empty()) drawn.layers.push_back(layer_of(step_style, std::move(edges)));
-    if (!reading.empty()) drawn.layers.push_back(layer_of(reading_style, std::move(reading)));
-    drawn.layers.push_back(layer_of(reference_style, over_time(reference, true)));
-    drawn.layers.push_back(layer_of(load_style, over_time(load)));
-    drawn.layers.push_back(layer_of(motor_style, over_time(motor)));
+    if (half > 0.0) drawn.layers.push_back(with(gap_style, std::move(around)));
+    if (!reading.empty()) drawn.layers.push_back(with(reading_style, std::move(reading)));
+    drawn.layers.push_back(with(reference_style, over_time(reference, true)));
+    drawn.layers.push_back(with(load_style, over_time(load)));
+    drawn.layers.push_back(with(motor_style, over_time(motor)));
     MapCurve impacts;
     for (const DrawnPiece& piece : response_.pieces) {
       const DrawnPoint& last = piece.points.back();
       if (piece.ends_with_impact && last.time >= from_) impacts.push_back({last.time, motor(last)});
     }
-    drawn.layers.push_back(impact_marks(impacts, {from_, *x_.high}, range, 0.45));
+    drawn.layers.push_back(impact_marks(impacts, {from_, x_.high}, range, 0.45));
     return drawn;
   }
 
-  /// Where the encoder's reading changes, relative to a constant reference: halfway between two
-  /// multiples of its step. Empty where the steps are too narrow to be seen, or slide.
-  std::vector<double> encoder_edges(const Bounds& range) const {
-    constexpr double most_edges = 30.0;
-    const double step = response_.encoder_step;
-    const std::optional<double>& reference = response_.end.reference;
-    if (!is_relative_ || !(step > 0.0) || !reference) return {};
-    if ((range.high - range.low) / step > most_edges) return {};
-    std::vector<double> edges;
-    const double first = std::ceil((range.low + *reference) / step - 0.5);
-    for (double i = first; (i + 0.5) * step - *reference < range.high; ++i) {
-      edges.push_back((i + 0.5) * step - *reference);
-    }
-    return edges;
-  }
-
-  /// The multiple of the step that is nearest to the measured position, with a corner wherever it
-  /// changes: positions are straight between two points. Empty without an encoder.
+  /// The multiple of the step that is nearest to the measured position, an upright line wherever it
+  /// changes, from the reference where the panel is. Empty without an encoder.
   MapCurve encoder_reading() const {
-    if (!(response_.encoder_step > 0.0)) return {};
+    const double step = response_.encoder_step;
+    if (!(step > 0.0)) return {};
+    constexpr int count = 3000;
     MapCurve points;
-    const DrawnPoint* before = nullptr;
-    const auto read = [&](const DrawnPoint& point) {
-      if (before != nullptr) add_corners(*before, point, points);
-      points.push_back(
-          {point.time, std::round(steps(point)) * response_.encoder_step - origin(point)});
-      before = &point;
-    };
-    for_each_point(response_.pieces, read, from_);
-    return points;
-  }
-
-  /// The measured position, in steps of the encoder.
-  double steps(const DrawnPoint& point) const {
-    return std::lerp(point.motor_position, point.load_position, response_.encoder_share_of_load) /
-           response_.encoder_step;
-  }
-
-  /// Of more corners than can be seen the line from point to point shows as much.
-  void add_corners(const DrawnPoint& from, const DrawnPoint& to, MapCurve& points) const {
-    constexpr double most_corners = 30.0;
-    const double begin = steps(from);
-    const double end = steps(to);
-    const double last = std::round(end);
-    if (std::abs(last - std::round(begin)) > most_corners) return;
-    const double up = end > begin ? 1.0 : -1.0;
-    for (double count = std::round(begin); count != last; count += up) {
-      const double share = std::clamp((count + 0.5 * up - begin) / (end - begin), 0.0, 1.0);
-      const double time = std::lerp(from.time, to.time, share);
-      const double reference = std::lerp(origin(from), origin(to), share);
-      for (const double reading : {count, count + up}) {
-        points.push_back({time, reading * response_.encoder_step - reference});
-      }
+    for (int i = 0; i <= count; ++i) {
+      const double time = std::lerp(from_, x_.high, static_cast<double>(i) / count);
+      const MotionSample sample = response_.motion.at(time);
+      const double measured = response_.picture.drive.angle_unit.from_radians(
+          std::lerp(sample.shafts.motor_position, sample.shafts.load_position,
+                    response_.encoder_share_of_load));
+      const double origin =
+          is_relative_ ? response_.picture.drive.angle_unit.from_radians(sample.reference) : 0.0;
+      const double reading = std::round(measured / step) * step - origin;
+      if (!points.empty() && points.back().y != reading) points.push_back({time, points.back().y});
+      points.push_back({time, reading});
     }
+    return points;
   }
 
   Panel gap_panel() const {
@@ -221,8 +178,8 @@ class TimeColumn {
     for (const double face : {-half, half}) range.include(face);
     Panel drawn =
         panel("gap", response_.picture.drive.angle_unit.name, widened(range, 0.12), 120.0);
-    drawn.layers.push_back(layer_of(face_style, joined({at(-half), at(half)})));
-    drawn.layers.push_back(layer_of(gap_line_style, std::move(gap)));
+    drawn.layers.push_back(with(face_style, joined({at(-half), at(half)})));
+    drawn.layers.push_back(with(gap_line_style, std::move(gap)));
     return drawn;
   }
 
@@ -238,7 +195,7 @@ class TimeColumn {
       points.push_back({time, torque});
       largest = std::max(largest, std::abs(torque));
     };
-    const double step = (*x_.high - from_) / count;
+    const double step = (x_.high - from_) / count;
     for (const DrawnPiece& piece : response_.pieces) {
       const double begin = std::max(from_, piece.points.front().time);
       const double end = piece.points.back().time;
@@ -265,10 +222,10 @@ class TimeColumn {
       range.include(-limit);
     }
     Panel drawn = panel("torque", "N m", widened(range, 0.05), 130.0);
-    Layer line = layer_of(torque_style, std::move(torque));
+    Layer line = with(torque_style, std::move(torque));
     line.name =
         response_.picture.drive.gearbox.ratio == 1.0 ? "motor torque" : "motor torque, at the load";
-    Layer limits = layer_of(limit_style, is_near ? joined({at(limit), at(-limit)}) : MapCurve{});
+    Layer limits = with(limit_style, is_near ? joined({at(limit), at(-limit)}) : MapCurve{});
     if (std::isfinite(limit)) limits.name = "its limit, ±" + significant(limit, 4) + " N m";
     drawn.layers.push_back(std::move(limits));
     drawn.layers.push_back(std::move(line));
@@ -332,7 +289,7 @@ Plot time_plot(const MotionPicture& picture) {
             .panels("the last " + significant(end_time - from, 2) +
                     (is_normalized(picture.drive) ? "/ω_n, enlarged" : " s, enlarged")));
   }
-  return plot;
+  return finished(std::move(plot));
 }
 
 }  // namespace gearlash

@@ -10,6 +10,7 @@
 #include "base/progress_part.hpp"
 #include "base/special_numbers.hpp"
 #include "picture/curve_panel.hpp"
+#include "picture/plot_making.hpp"
 #include "thesis/exact_curve.hpp"
 #include "thesis/figures.hpp"
 
@@ -74,7 +75,7 @@ Plot error_plot(const std::vector<ChartError>& errors) {
     panel.height = 230.0;
     plot.columns[column].push_back(std::move(panel));
   }
-  return plot;
+  return finished(std::move(plot));
 }
 
 }  // namespace gearlash::thesis

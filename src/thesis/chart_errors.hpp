@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "gearlash/plot.hpp"
 #include "gearlash/progress.hpp"
 #include "model/normalized_servo.hpp"
-#include "picture/plot.hpp"
 #include "thesis/settled_cycle.hpp"
 
 namespace gearlash::thesis {

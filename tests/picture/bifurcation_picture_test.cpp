@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "picture/gnuplot_renderer.hpp"
+#include "picture/gnuplot.hpp"
 #include "picture/hunting_drive.hpp"
 #include "picture/svg_reading.hpp"
 
@@ -80,8 +80,9 @@ TEST(BifurcationPicture, PeriodsHaveNeitherRestNorIrregularMotion) {
            PictureFormat::svg);
   EXPECT_THAT(svg, AllOf(HasSubstr("period (s)"), HasSubstr("stable cycle"),
                          Not(HasSubstr("can come to rest")), Not(HasSubstr("closes no cycle"))));
-  EXPECT_TRUE(has_branches(Quantity::period));
-  EXPECT_FALSE(has_branches(Quantity::growth_at_rest));
+  EXPECT_TRUE(faults_of_branches(grid_of("controller.proportional"), Quantity::period).empty());
+  EXPECT_EQ(faults_of_branches(grid_of("controller.proportional"), Quantity::growth_at_rest).size(),
+            1U);
 }
 
 TEST(BifurcationPicture, NothingSaysSo) {

@@ -8,8 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "picture/gnuplot_renderer.hpp"
+#include "picture/gnuplot.hpp"
 #include "picture/grid_chart.hpp"
+#include "picture/plot_making.hpp"
 #include "question/map/servo_grids.hpp"
 
 namespace gearlash::grid_map_test {
@@ -179,10 +180,10 @@ TEST(GridMap, IsDrawnInTheUnitOfAngles) {
   const Plot map = map_plot(table, Quantity::amplitude);
   EXPECT_EQ(map.title, "Amplitude of the load (arcmin)");
   const Panel& panel = panel_of(map);
-  EXPECT_EQ(drawn_x(panel).name, "backlash (arcmin)");
-  EXPECT_DOUBLE_EQ(panel.x.low.value(), 1.0);
-  EXPECT_DOUBLE_EQ(panel.x.high.value(), 2.0);
-  EXPECT_DOUBLE_EQ(panel.y.low.value(), 0.1);
+  EXPECT_EQ(panel.x.label, "backlash (arcmin)");
+  EXPECT_DOUBLE_EQ(panel.x.low, 1.0);
+  EXPECT_DOUBLE_EQ(panel.x.high, 2.0);
+  EXPECT_DOUBLE_EQ(panel.y.low, 0.1);
   const Panel& other = panel_of(radians);
   ASSERT_EQ(panel.layers.size(), other.layers.size());
   ASSERT_EQ(panel.texts.size(), other.texts.size());
@@ -207,7 +208,7 @@ TEST(GridChart, IsDrawnInTheUnitOfAngles) {
   const MapPoint in_radians = panel_of(radians).layers.at(0).points.at(1);
   table.grid.drive.angle_unit = {"arcmin", 1e-3};
   const Plot chart = chart_plot(table, Quantity::amplitude);
-  EXPECT_EQ(drawn_y(panel_of(chart)).name, "amplitude (arcmin)");
+  EXPECT_EQ(panel_of(chart).y.label, "amplitude (arcmin)");
   const MapPoint point = panel_of(chart).layers.at(0).points.at(1);
   EXPECT_DOUBLE_EQ(point.x, 1e3 * in_radians.x);
   EXPECT_DOUBLE_EQ(point.y, 1e3 * in_radians.y);

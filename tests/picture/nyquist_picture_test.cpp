@@ -9,7 +9,7 @@
 
 #include "controllers.hpp"
 #include "output/report_units.hpp"
-#include "picture/gnuplot_renderer.hpp"
+#include "picture/gnuplot.hpp"
 
 namespace gearlash::nyquist_picture_test {
 namespace {

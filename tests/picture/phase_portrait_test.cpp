@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "picture/attractor_picture.hpp"
-#include "picture/gnuplot_renderer.hpp"
+#include "picture/gnuplot.hpp"
 #include "picture/hunting_drive.hpp"
 #include "picture/svg_reading.hpp"
 #include "question/analyse.hpp"

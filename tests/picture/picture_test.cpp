@@ -14,9 +14,10 @@
 #include "picture/attractor_picture.hpp"
 #include "picture/curve_panel.hpp"
 #include "picture/drawn_motion.hpp"
-#include "picture/gnuplot_renderer.hpp"
+#include "picture/gnuplot.hpp"
 #include "picture/hunting_drive.hpp"
 #include "picture/motion_picture.hpp"
+#include "picture/plot_making.hpp"
 #include "picture/svg_reading.hpp"
 
 namespace gearlash::picture_test {
@@ -78,9 +79,11 @@ bool is_well_formed(const std::string& xml) {
 
 using test::visible_text;
 
+constexpr Plot (*plots_of_motion[])(const MotionPicture&) = {&time_plot, &phase_plot};
+
 TEST(Picture, KindIsThatOfTheEnding) {
   const MotionPicture picture = sample_picture();
-  for (const auto plot_of_motion : {&time_plot, &phase_plot}) {
+  for (Plot (*const plot_of_motion)(const MotionPicture&) : plots_of_motion) {
     EXPECT_TRUE(is_well_formed(draw(plot_of_motion(picture), PictureFormat::svg)));
     EXPECT_THAT(draw(plot_of_motion(picture), PictureFormat::png), StartsWith("\x89PNG\r\n\x1a\n"));
     const std::string pdf = draw(plot_of_motion(picture), PictureFormat::pdf);
@@ -196,7 +199,7 @@ TEST(Picture, TheLegendTellsCyclesAndTheirShaftsApart) {
 TEST(Picture, AnSvgIsNamedByItsTitle) {
   MotionPicture picture = sample_picture();
   picture.title = "hunts: <±0.1 rad> & more";
-  for (const auto plot_of_motion : {&time_plot, &phase_plot}) {
+  for (Plot (*const plot_of_motion)(const MotionPicture&) : plots_of_motion) {
     EXPECT_THAT(draw(plot_of_motion(picture), PictureFormat::svg),
                 HasSubstr("<title>hunts: &lt;±0.1 rad> &amp; more</title>"));
   }
@@ -246,14 +249,14 @@ TEST(EdgePicture, APlaneWithoutACycleSaysSo) {
 }
 
 TEST(EdgePicture, AChartOfNothingHasItsAxesAndSaysWhy) {
-  const auto panel_of = [](double nothing, std::optional<double> low, bool logarithmic = false) {
+  const auto panel_of = [](double nothing, double low, bool logarithmic = false) {
     Panel panel{.x = {.name = "across", .low = 0.7, .high = 0.9},
                 .y = {.name = "upwards", .logarithmic = logarithmic, .low = low}};
     add_curves({{.name = "servo: rests", .line = {{0.7, nothing}, {0.9, nothing}}}}, 0.8, panel);
     say("no limit cycle", panel);
     return panel;
   };
-  for (const auto low : {std::optional<double>{}, std::optional<double>{0.0}}) {
+  for (const double low : {double{NAN}, 0.0}) {
     for (const double nothing : {NAN, INFINITY, -INFINITY}) {
       const std::string text =
           visible_text(draw(plot_of("the title", "", panel_of(nothing, low)), PictureFormat::svg));
@@ -262,7 +265,7 @@ TEST(EdgePicture, AChartOfNothingHasItsAxesAndSaysWhy) {
       }
     }
   }
-  const Plot plot = plot_of("", "", panel_of(NAN, std::nullopt, true));
+  const Plot plot = plot_of("", "", panel_of(NAN, NAN, true));
   EXPECT_THAT(visible_text(draw(plot, PictureFormat::svg)), HasSubstr("servo: rests"));
   EXPECT_THAT(draw(plot, PictureFormat::png), StartsWith("\x89PNG"));
   EXPECT_THAT(draw(plot, PictureFormat::pdf), StartsWith("%PDF-"));

@@ -76,9 +76,8 @@ def test_a_wrong_type(servo, name, call):
     ("quantity", lambda servo: gearlash.tolerance(servo, samples=64, quantity="speed")),
     ("share", lambda servo: gearlash.widest_backlash(servo, "no-hunting", 2.0)),
     ("shares", lambda servo: gearlash.tolerance(servo, samples=64, shares=[2])),
-    ("points", lambda servo: gearlash.plot.motion(gearlash.simulate(servo, 1.0), points=-1)),
-    ("quantity", lambda servo: gearlash.plot.sweep(
-        gearlash.sweep(servo, {"servo.damping": [0.1, 0.2]}), "speed")),
+    ("quantity = speed:", lambda servo: gearlash.plot.curves(
+        servo, {"servo.damping": [0.1, 0.2]}, "speed")),
     ("until", lambda servo: gearlash.simulate(servo, 10**400)),
     ("lines", lambda servo: thesis.printout(-1)),
     ("lines", lambda servo: thesis.printout(10**8))])

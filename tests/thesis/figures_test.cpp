@@ -8,7 +8,7 @@
 #include "closed_form/growth_at_rest.hpp"
 #include "closed_form/limit_cycle.hpp"
 #include "closed_form/servo_dynamics.hpp"
-#include "picture/gnuplot_renderer.hpp"
+#include "picture/gnuplot.hpp"
 #include "thesis/settled_cycle.hpp"
 
 namespace gearlash::thesis::figures_test {

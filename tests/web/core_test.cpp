@@ -191,7 +191,8 @@ TEST_F(WebCore, AnEncoderReadsWholeSteps) {
 }
 
 TEST_F(WebCore, AMapHasItsBorderAndItsUnits) {
-  const Json reply = ask({{"ask", "map"},
+  const Json reply = ask({{"ask", "picture"},
+                          {"kind", "map"},
                           {"drive", drive(servo)},
                           {"x", "servo.inertia_ratio=0.1:10:15:log"},
                           {"y", "servo.damping=0.05:2:15:log"}});
@@ -207,7 +208,8 @@ TEST_F(WebCore, AMapHasItsBorderAndItsUnits) {
 }
 
 TEST_F(WebCore, AMapOfMorePointsThanAStdSizeTOfWebAssemblyIsRefused) {
-  const Json reply = ask({{"ask", "map"},
+  const Json reply = ask({{"ask", "picture"},
+                          {"kind", "map"},
                           {"drive", drive(servo)},
                           {"x", "servo.inertia_ratio=0.1:10:65536"},
                           {"y", "servo.damping=0.05:2:65536"}});
@@ -215,8 +217,10 @@ TEST_F(WebCore, AMapOfMorePointsThanAStdSizeTOfWebAssemblyIsRefused) {
 }
 
 TEST_F(WebCore, AChartHasBranchesAndTheBorderOfHunting) {
-  const Json reply =
-      ask({{"ask", "chart"}, {"drive", drive(servo)}, {"x", "servo.damping=0.1:2:25:log"}});
+  const Json reply = ask({{"ask", "picture"},
+                          {"kind", "bifurcation"},
+                          {"drive", drive(servo)},
+                          {"x", "servo.damping=0.1:2:25:log"}});
   std::vector<std::string> names;
   for (const Json& layer : reply["plot"]["columns"][0][0]["layers"]) {
     const bool is_named = !layer["name"].is_null();
@@ -228,6 +232,19 @@ TEST_F(WebCore, AChartHasBranchesAndTheBorderOfHunting) {
     return !name.empty() && name != "stable cycle" && name != "can come to rest";
   });
   EXPECT_TRUE(has_border);
+}
+
+TEST_F(WebCore, EveryOtherPictureIsDrawnOrSaysWhyNot) {
+  for (const char* kind : {"ceiling", "tornado", "nyquist", "comparison", "curves"}) {
+    const Json reply = ask({{"ask", "picture"},
+                            {"kind", kind},
+                            {"drive", drive(servo)},
+                            {"x", "servo.damping=0.1:0.3:3"}});
+    EXPECT_FALSE(reply["plot"]["columns"][0][0]["layers"].empty()) << kind;
+    EXPECT_FALSE(reply["plot"]["description"].is_null()) << kind;
+  }
+  const Json reply = ask({{"ask", "picture"}, {"kind", "yield"}, {"drive", drive(servo)}});
+  EXPECT_EQ(reply["faults"][0]["permitted"], "must be left out: no number has a tolerance");
 }
 
 TEST_F(WebCore, MarginsAreTextsThatCanBeSet) {

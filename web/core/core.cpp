@@ -1,5 +1,6 @@
 #include "core.hpp"
 
+#include <algorithm>
 #include <array>
 #include <exception>
 #include <limits>
@@ -7,9 +8,10 @@
 #include <utility>
 
 #include "base/lists.hpp"
+#include "base/range_check.hpp"
 #include "drive_reply.hpp"
 #include "gearlash/design.hpp"
-#include "grid_reply.hpp"
+#include "gearlash/picture.hpp"
 #include "input/axis_text.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/answer_report.hpp"
@@ -19,6 +21,7 @@
 #include "output/records.hpp"
 #include "picture/answer_picture.hpp"
 #include "picture/attractor_picture.hpp"
+#include "picture/grid_words.hpp"
 #include "picture/motion_style.hpp"
 #include "question/analyse.hpp"
 #include "thesis/figures.hpp"
@@ -94,8 +97,10 @@ class LimitedProgress : public Progress {
       host_.report(share);
       next_report_ = now + seconds_between_reports;
     }
-    return now < until_;
+    is_stopped_ = now >= until_;
+    return !is_stopped_;
   }
+  bool is_stopped() const { return is_stopped_; }
 
  private:
   static constexpr double seconds_between_reports = 0.1;
@@ -103,6 +108,7 @@ class LimitedProgress : public Progress {
   const Host& host_;
   double until_;
   double next_report_;
+  bool is_stopped_ = false;
 };
 
 /// Over time, and as two gears: the first motion of the picture. One with too many events to draw
@@ -113,7 +119,7 @@ ShownMotion motion_reply(const std::string& name, const MotionPicture& picture) 
                     .time_unit = is_normalized(picture.drive) ? "1/ω_n" : "s",
                     .gap = picture.drive.angle_unit.from_radians(reduce(picture.drive).backlash)};
   try {
-    shown.plot = drawn(time_plot(picture));
+    shown.plot = time_plot(picture);
     for_each_point(legible_curve(picture, motion), [&](const DrawnPoint& point) {
       shown.load.push_back({point.time, point.load_position - point.reference});
       shown.motor.push_back({point.time, point.motor_position - point.reference});
@@ -144,14 +150,14 @@ class Core::Session {
       return written(FileReply{to_toml(TolerancedDrive{drive.drive, drive.tolerances})});
     }
     if (ask == "answer") return written(answer(request, text, drive, progress));
-    if (ask == "map") return written(map_reply(request, drive, progress));
-    if (ask == "chart") return written(chart_reply(request, drive, progress));
     if (ask == "margins") return written(margins(request, text, drive, progress));
-    refuse("ask", ask, "must be thesis, drive, file, answer, map, chart or margins");
+    if (ask == "picture") return written(picture(request, drive, progress));
+    refuse("ask", ask, "must be thesis, drive, file, answer, margins or picture");
   }
 
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
+  static constexpr auto& kinds = records::Words<PictureKind>::all;
 
   /// Coarse: without proofs and borders; a search follows that of the drive before, or one start.
   Analysis analysed(bool is_coarse, const WrittenDrive& written, Progress& progress) {
@@ -202,7 +208,7 @@ class Core::Session {
   /// The phase plane, unless there are too many events to draw, and each cycle over time.
   static void add_cycles(MotionPicture picture, AnswerReply& reply) {
     try {
-      reply.phase = drawn(phase_plot(picture));
+      reply.phase = phase_plot(picture);
     } catch (const InvalidInput&) {  // the motions say it too
     }
     for (const DrawnMotion& motion : std::exchange(picture.motions, {})) {
@@ -232,8 +238,45 @@ class Core::Session {
     return reply_of(gearlash::margins(written.drive, axes, progress), text, written);
   }
 
+  /// More points than a picture shows would keep the page waiting.
+  static void require_few(const std::vector<Axis>& axes) {
+    constexpr double most_points = 40'000;
+    double points = 1.0;  // their product may be larger than a std::size_t of WebAssembly
+    for (const Axis& axis : axes) points *= static_cast<double>(axis.values.size());
+    if (points <= most_points) return;
+    refuse("points", exact_text(points),
+           "must be at most " + exact_text(most_points) +
+               " in the page; the command line has room for more");
+  }
+
+  /// The drive's picture of a kind, over the axes of the request.
+  static PictureReply picture(const Json& request, const WrittenDrive& written,
+                              LimitedProgress& progress) {
+    PictureQuestion question{
+        .drive = written.drive, .marks_drive = false, .varied = written.tolerances};
+    const std::string kind = request.at("kind");
+    const auto* const known = std::find_if(std::begin(kinds), std::end(kinds),
+                                           [&](const auto& one) { return one.text == kind; });
+    if (known == std::end(kinds)) refuse("kind", kind, "must be the kind of a picture");
+    question.kind = known->value;
+    PictureReply reply;
+    const auto read = [&](const char* name, std::optional<DrawnAxis>& drawn) {
+      if (!request.contains(name)) return;
+      const std::string text = request.at(name);
+      const Axis axis = read_axis_or_name(name, text, written.drive);
+      question.axes.push_back(axis);
+      drawn = {axis.path, drawn_unit(axis, written.drive).size};
+    };
+    read("y", reply.y);
+    read("x", reply.x);
+    require_few(question.axes);
+    reply.plot = picture_of(question, progress);
+    reply.is_complete = !progress.is_stopped();
+    return reply;
+  }
+
   static Plot thesis_figure(int number, Progress& progress) {
-    if (const auto plot = thesis::figure_plot(number, progress)) return drawn(*plot);
+    if (const auto plot = thesis::figure_plot(number, progress)) return *plot;
     refuse("figure", std::to_string(number), "must be the number of a figure: 2 to 15");
   }
 

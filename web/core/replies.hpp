@@ -9,8 +9,8 @@
 
 #include "gearlash/answer.hpp"
 #include "gearlash/parameter.hpp"
+#include "gearlash/plot.hpp"
 #include "output/json_writer.hpp"
-#include "picture/plot.hpp"
 
 namespace gearlash::web {
 
@@ -110,17 +110,16 @@ struct AnswerReply {
 };
 
 /// An axis with its drawn unit, for placing a mark.
-struct MapAxis {
+struct DrawnAxis {
   std::string path{};       ///< of its parameter
   double unit_in_si = 1.0;  ///< the unit that is drawn
 };
 
-/// A map over two axes, or branches of cycles over one.
-struct MapReply {
-  Plot plot{};                 ///< the map
-  MapAxis x{};                 ///< to the right
-  std::optional<MapAxis> y{};  ///< upwards, if it is no quantity
-  bool is_complete = true;     ///< not stopped
+struct PictureReply {
+  Plot plot{};                   ///< of the kind asked for
+  std::optional<DrawnAxis> x{};  ///< to the right, if it is a parameter
+  std::optional<DrawnAxis> y{};  ///< upwards, or of the curves, likewise
+  bool is_complete = true;       ///< not stopped
 };
 
 /// A margin as a reader has it. Values beyond which hunting ends or begins are rounded to that

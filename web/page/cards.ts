@@ -2,24 +2,26 @@
 import { csv, save, savePng, svgFile } from './downloads';
 import { addButton, made } from './elements';
 import { draw, moveMark, type Place, type Plot } from './plot';
+import type { PlotAxis } from './records';
 import { isOfTime, narrowed, type Pointed, readingsAt, type Spot, spotAt, spotOfTime } from './reading';
 
 /** The curves of a picture as a table: panel and name of the curve, x, y. */
 function curvesOf(plot: Plot): string {
   const [curves, x, y]: [string[], number[], number[]] = [[], [], []];
   const quoted = (text: string): string => `"${text.replaceAll('"', "'")}"`;
+  const inUnit = ({ name, unit }: PlotAxis): string => `${name ?? ''}${unit ? ` (${unit})` : ''}`;
   for (const panel of plot.columns.flat()) {
     for (const [i, { kind, name, points }] of panel.layers.entries()) {
       if (kind === 'area') continue;
       for (let at = 0; at + 1 < points.length; at += 2) {
         if (!Number.isFinite(points[at]!)) continue;
-        curves.push(quoted(`${panel.y.name ?? ''}: ${name ?? i + 1}`));
+        curves.push(quoted(`${inUnit(panel.y)}: ${name || i + 1}`));
         x.push(points[at]!);
         y.push(points[at + 1]!);
       }
     }
   }
-  return csv(['curve', quoted(plot.columns[0]![0]!.x.name ?? ''), 'value'], [curves, x, y]);
+  return csv(['curve', quoted(inUnit(plot.columns[0]![0]!.x)), 'value'], [curves, x, y]);
 }
 
 /** Pixels of a picture: less is a click. */

@@ -99,6 +99,7 @@ class Explorer {
     byId('save-toml').onclick = () => void saveDrive(this.core.answers, this.state.drive).catch((error) => this.refuse(error));
     byId('copy-link').onclick = () => void this.keepAddress().then(copyLink);
     byId('map-go').onclick = () => void this.studies.drawMap();
+    byId('more-go').onclick = () => void this.studies.drawMore();
     byId('changes-go').onclick = () => void this.studies.searchChanges();
     for (const axis of ['x', 'y'] as const) {
       byId<HTMLSelectElement>(`map-${axis}`).onchange = (event) => {

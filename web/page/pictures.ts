@@ -9,11 +9,10 @@ export function plotOf(plot: core.Plot, numbers: Float64Array, moving: Place | n
   const columns = plot.columns.map((panels) =>
     panels.map((panel) => ({ ...panel, layers: panel.layers.map((layer) => ({ ...layer, points: column(numbers, layer.points) })) })),
   );
-  const names = columns.flat().flatMap((panel) => panel.layers.map((layer) => layer.name));
   return {
     title: plot.title,
     subtitle: plot.subtitles.join('; '),
-    description: (moving?.y !== undefined ? `You are at ${short(moving.x)}, ${short(moving.y)}. ` : '') + [...new Set(names)].filter(Boolean).join(', '),
+    description: (moving?.y !== undefined ? `You are at ${short(moving.x)}, ${short(moving.y)}. ` : '') + plot.description,
     columns,
     moving,
   };

@@ -139,8 +139,8 @@ function axesText({ panel, top, bottom, x, y, isLast }: Placed, width: number): 
     if (tic.text && panel.y.has_grid) text += `<path d="M${frame.left} ${place}H${right}" stroke="${theme.grid}"/>`;
     if (tic.text) text += `<text x="${frame.left - 7}" y="${Number(place) + 4}" text-anchor="end" fill="${theme.faint}" font-size="12">${escapeText(tic.text)}</text>`;
   }
-  if (isLast) text += `<text x="${middle}" y="${bottom + 36}" text-anchor="middle" fill="${theme.ink}" font-size="13">${escapeText(panel.x.name ?? '')}</text>`;
-  return text + `<text x="16" y="${centre}" text-anchor="middle" fill="${theme.ink}" font-size="13" transform="rotate(-90 16 ${centre})">${escapeText(panel.y.name ?? '')}</text>`;
+  if (isLast) text += `<text x="${middle}" y="${bottom + 36}" text-anchor="middle" fill="${theme.ink}" font-size="13">${escapeText(panel.x.label ?? '')}</text>`;
+  return text + `<text x="16" y="${centre}" text-anchor="middle" fill="${theme.ink}" font-size="13" transform="rotate(-90 16 ${centre})">${escapeText(panel.y.label ?? '')}</text>`;
 }
 
 let clips = 0;
@@ -153,7 +153,10 @@ function panelText(one: Placed, width: number): string {
     `<rect x="${frame.left - margin}" y="${top - margin}" width="${width - frame.left - frame.right + 2 * margin}" height="${bottom - top + 2 * margin}" ${style}/>`;
   const text = (isOf: (layer: Layer) => boolean): string => panel.layers.filter(isOf).map((layer) => layerText(layer, x, y)).join('');
   const words = panel.texts
-    .map((word) => `<text x="${at(x(word.at.x))}" y="${at(y(word.at.y) + 4)}" fill="${word.colour}" font-size="12" text-anchor="middle" paint-order="stroke" stroke="${theme.paper}" stroke-width="3">${escapeText(word.text)}</text>`)
+    .map((word) => {
+      const [right, down] = [at(x(word.at.x)), at(y(word.at.y))];
+      return `<text transform="translate(${right} ${down}) rotate(${-word.slope})" y="4" fill="${word.colour}" font-size="${at(14 * word.size)}" font-weight="${word.is_bold ? 700 : 400}" text-anchor="middle" paint-order="stroke" stroke="${theme.paper}" stroke-width="3">${escapeText(word.text)}</text>`;
+    })
     .join('');
   return (
     `<clipPath id="${clip}">${rectangle(0)}</clipPath><clipPath id="${clip}m">${rectangle(7)}</clipPath>${axesText(one, width)}` +
@@ -187,11 +190,11 @@ export function moveMark(picture: Element, plot: Plot, to: Place): void {
   });
 }
 
-/** The names of layers, each with a sample; the first of each name. */
+/** The names of layers, each with a sample. */
 function legendOf(plot: Plot): Map<string, (right: number, middle: number) => string> {
   const samples = new Map<string, (right: number, middle: number) => string>();
   for (const layer of plot.columns.flat().flatMap((panel) => panel.layers)) {
-    if (!layer.name || samples.has(layer.name)) continue;
+    if (!layer.in_legend || !layer.name) continue;
     samples.set(layer.name, (right, middle) => {
       if (layer.kind === 'area') return `<rect x="${right}" y="${middle - 6}" width="22" height="12" fill="${layer.colour}" stroke="${theme.faint}" stroke-width="0.5"/>`;
       if (layer.kind === 'marks') return mark(layer.mark, right + 11, middle, radius(layer.size), layer.colour);

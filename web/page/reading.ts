@@ -75,9 +75,9 @@ export function readingsAt(plot: Plot, { column, panel: pointed, x, y }: Spot): 
     const values = [...valuesAt(panel, x, panel === pointed ? y : NaN)].filter(([, value]) => Number.isFinite(value));
     // "its limit, ±144 N m" names a value itself.
     const words = values.map(([name, value]) => `${name.replace(/, ±.*/, '')} ${short(value * powerOf(panel.y))}`.trim());
-    return words.length > 0 ? `${panel.y.name}: ${words.join(', ')}` : '';
+    return words.length > 0 ? `${panel.y.label}: ${words.join(', ')}` : '';
   });
-  return [`${axis.name}: ${short(x * powerOf(axis))}`, ...readings].filter(Boolean).join('; ');
+  return [`${axis.label}: ${short(x * powerOf(axis))}`, ...readings].filter(Boolean).join('; ');
 }
 
 /** The axis over another range, with round numbers; the same for a range that rounding would fill. */

@@ -1,7 +1,7 @@
 // What the core replies: by records.ts, which the build makes from web/core, with numbers beside it.
 import type { Column } from './records';
 
-export type { AnswerReply, DriveReply, MapReply, MarginsReply, ParameterReply as Parameter, Plot as PlotReply, ShownFault as Fault, ShownMotion, Slider } from './records';
+export type { AnswerReply, DriveReply, MarginsReply, ParameterReply as Parameter, PictureReply, Plot as PlotReply, ShownFault as Fault, ShownMotion, Slider } from './records';
 
 /** A drive as the page holds it. */
 export interface DriveText {

@@ -6,7 +6,7 @@ import { byId } from './elements';
 import { titleOf } from './inputs';
 import { escapeText, inWords, typed } from './numbers';
 import { plotOf } from './pictures';
-import type { AnswerReply, DriveReply, DriveText, MapReply, MarginsReply, Parameter, Replied } from './replies';
+import type { AnswerReply, DriveReply, DriveText, MarginsReply, Parameter, PictureReply, Replied } from './replies';
 import { quoted, setOptions } from './state';
 import { wordsOf } from './words';
 
@@ -18,6 +18,13 @@ interface Page {
   /** The axes that were chosen: paths, the second may be ''. */
   axes(): { x: string; y: string };
   change(path: string, text: string): void;
+}
+
+/** A picture over parameters. */
+interface Request {
+  kind: string;
+  x: string;
+  y?: string;
 }
 
 /** Points on each axis: a closed form is solved at once, a search takes a second. */
@@ -58,7 +65,7 @@ export function listAxes(facts: DriveReply, chosen: { x: string; y: string }): {
 }
 
 export class Studies {
-  private map: { replied: Replied<MapReply>; key: string } | null = null;
+  private map: { replied: Replied<PictureReply>; key: string } | null = null;
   /** The map that is on the page with a mark, which can be moved. */
   private drawn: object | null = null;
   private job = 0;
@@ -74,8 +81,8 @@ export class Studies {
     this.map = this.drawn = null;
     ++this.job;
     this.lane.giveUp();
-    this.cards.blank('map', '');
-    byId('map-words').textContent = '';
+    for (const name of ['map', 'more']) this.cards.blank(name, '');
+    for (const id of ['map-words', 'more-words']) byId(id).textContent = '';
     byId('changes').textContent = '';
     byId('changes-words').textContent = '';
     byId('changes-go').hidden = true;
@@ -97,11 +104,11 @@ export class Studies {
     return `${path}=${typed(slider.low / unit)}${words}:${typed(slider.high / unit)}${words}:${count}${slider.is_logarithmic ? ':log' : ''}`;
   }
 
-  private request(): { ask: 'map' | 'chart'; x: string; y?: string } {
+  private request(): Request {
     const engine = this.page.facts().is_searched ? 'searched' : 'closed';
     const { x, y } = this.page.axes();
-    if (y && y !== x) return { ask: 'map', x: this.axisText(x, pointsOf.map[engine]), y: this.axisText(y, pointsOf.map[engine]) };
-    return { ask: 'chart', x: this.axisText(x, pointsOf.chart[engine]) };
+    if (y && y !== x) return { kind: 'map', x: this.axisText(x, pointsOf.map[engine]), y: this.axisText(y, pointsOf.map[engine]) };
+    return { kind: 'bifurcation', x: this.axisText(x, pointsOf.chart[engine]) };
   }
 
   /** Computes the map, unless the present one holds: the drive differs on its axes alone. */
@@ -119,7 +126,7 @@ export class Studies {
     words.textContent = 'Computing …';
     this.cards.fade('map');
     try {
-      const replied = await patiently<MapReply>(this.lane, { ...request, drive: present, seconds });
+      const replied = await patiently<PictureReply>(this.lane, { ask: 'picture', ...request, drive: present, seconds });
       if (job !== this.job) return;
       this.map = { replied, key };
       words.innerHTML = this.commandText(request, drive, replied.reply.is_complete);
@@ -132,16 +139,16 @@ export class Studies {
   }
 
   /** The request of the present map if it is of this drive and these axes: sliders that were widened since do not change it. */
-  private keptAxes(drive: DriveText): ReturnType<Studies['request']> | null {
+  private keptAxes(drive: DriveText): Request | null {
     if (!this.map) return null;
-    const [before, request] = JSON.parse(this.map.key) as [DriveText, ReturnType<Studies['request']>];
+    const [before, request] = JSON.parse(this.map.key) as [DriveText, Request];
     const path = (axis: string | undefined): string => (axis ?? '').split('=')[0]!;
     const { x, y } = this.page.axes();
     const isSame = JSON.stringify(before) === JSON.stringify(drive) && path(request.x) === x && path(request.y) === (y === x ? '' : y);
     return isSame ? request : null;
   }
 
-  private commandText(request: { ask: string; x: string; y?: string }, drive: DriveText, isComplete: boolean): string {
+  private commandText(request: Request, drive: DriveText, isComplete: boolean): string {
     const axes = request.y ? `map --x '${request.x}' --y '${request.y}'` : `chart --x '${request.x}'`;
     const plot = request.y ? 'map=map.svg' : 'bifurcation=branches.svg';
     const stopped = isComplete ? '' : 'Stopped before the end. ';
@@ -164,12 +171,34 @@ export class Studies {
     if (!this.map || !answer) return;
     const { reply, numbers } = this.map.replied;
     const cycle = answer.answer.cycles.find((one) => one.stability !== 'unstable');
-    const x = this.here(reply.x.path, reply.x.unit_in_si);
+    const x = reply.x && this.here(reply.x.path, reply.x.unit_in_si);
     const y = reply.y ? this.here(reply.y.path, reply.y.unit_in_si) : (cycle?.amplitude ?? 0) / answer.unit_in_si;
     const place = x !== null && y !== null ? { x, y } : null;
     if (place && this.drawn === this.map) return this.cards.move('map', place);
     this.cards.put('map', plotOf(reply.plot, numbers, place));
     this.drawn = place && this.map;
+  }
+
+  // ---- other pictures ---------------------------------------------------------------------------
+
+  /** The chosen picture of the present drive. */
+  async drawMore(): Promise<void> {
+    const drive = this.page.drive();
+    const kind = byId<HTMLSelectElement>('more-kind').value;
+    const words = byId('more-words');
+    const axis = kind === 'curves' ? { x: this.axisText(this.page.axes().x, pointsOf.chart[this.page.facts().is_searched ? 'searched' : 'closed']) } : {};
+    words.textContent = 'Computing …';
+    this.cards.fade('more');
+    try {
+      const { reply, numbers } = await patiently<PictureReply>(this.lane, { ask: 'picture', kind, drive, ...axis, seconds });
+      if (drive !== this.page.drive()) return;
+      words.textContent = [reply.plot.title, ...reply.plot.subtitles].join('; ');
+      this.cards.put('more', plotOf(reply.plot, numbers));
+    } catch (error) {
+      if (drive !== this.page.drive()) return;
+      words.textContent = error instanceof Overtaken ? 'Not computed for this drive.' : '';
+      if (!(error instanceof Overtaken)) this.cards.blank('more', wordsOf(error));
+    }
   }
 
   // ---- changes ----------------------------------------------------------------------------------

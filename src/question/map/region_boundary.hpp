@@ -5,22 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "gearlash/bounds.hpp"
 #include "gearlash/progress.hpp"
 #include "question/axis.hpp"
 
 namespace gearlash {
-
-/// A point of a map: the values on its two axes.
-struct MapPoint {
-  double x = 0.0;
-  double y = 0.0;
-
-  bool operator==(const MapPoint&) const = default;
-};
-
-/// Points joined by straight lines in the axes' own scales; closed if the last point equals the
-/// first.
-using MapCurve = std::vector<MapPoint>;
 
 /// The side of the boundary on which a place lies.
 enum class Side : unsigned char { inside, outside, unknown };

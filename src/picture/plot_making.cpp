@@ -1,10 +1,11 @@
-#include "picture/plot.hpp"
+#include "picture/plot_making.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "base/extent.hpp"
@@ -87,6 +88,9 @@ std::vector<Tic> logarithmic_tics(const Bounds& range, int most) {
   return tics;
 }
 
+/// Ends that are open are NaN.
+double value_or(double end, double other) { return std::isnan(end) ? other : end; }
+
 /// The ends of the data along the axis.
 Bounds ends_of_data(const Panel& panel, const PlotAxis& axis, double MapPoint::*along,
                     double margin) {
@@ -99,38 +103,60 @@ Bounds ends_of_data(const Panel& panel, const PlotAxis& axis, double MapPoint::*
   }
   constexpr double ratio = 1.05;
   if (data.low > data.high) {
-    return axis.logarithmic ? Bounds{0.5 * axis.high.value_or(2.0), 2.0 * axis.low.value_or(1.0)}
-                            : Bounds{0.0, axis.low.value_or(0.0) + 1.0};
+    return axis.logarithmic ? Bounds{0.5 * value_or(axis.high, 2.0), 2.0 * value_or(axis.low, 1.0)}
+                            : Bounds{0.0, value_or(axis.low, 0.0) + 1.0};
   }
   return axis.logarithmic ? Bounds{data.low / ratio, data.high * ratio}
                           : widened(data, data.low < data.high ? margin : 0.1);
 }
 
-PlotAxis drawn_axis(const Panel& panel, PlotAxis axis, double MapPoint::*along, double margin,
-                    int most) {
+PlotAxis finished_axis(const Panel& panel, PlotAxis axis, double MapPoint::*along, double margin,
+                       int most) {
   const Bounds data = ends_of_data(panel, axis, along, margin);
-  const Bounds ends{axis.low.value_or(data.low), axis.high.value_or(data.high)};
-  axis.low = ends.low;
-  axis.high = ends.high;
+  axis.low = value_or(axis.low, data.low);
+  axis.high = value_or(axis.high, data.high);
   const bool is_plain = axis.logarithmic || !axis.tics.empty();
-  const int power = is_plain ? 0 : shown_power(std::max(std::abs(ends.low), std::abs(ends.high)));
+  const int power = is_plain ? 0 : shown_power(std::max(std::abs(axis.low), std::abs(axis.high)));
   if (axis.tics.empty()) {
+    const Bounds ends{axis.low, axis.high};
     axis.tics = axis.logarithmic ? logarithmic_tics(ends, most) : even_tics(ends, most, power);
   }
-  axis.unit = unit_of_power(axis.unit, power);
-  axis.name = label_of(axis);
-  axis.unit.clear();
+  axis.label = axis.name.empty() ? "" : name_with_unit(axis.name, unit_of_power(axis.unit, power));
   return axis;
 }
 
+/// "position (deg) over time (s): load, motor".
+std::string description_of(const Panel& panel) {
+  std::vector<std::string> names;
+  for (const Layer& layer : panel.layers) {
+    if (!layer.name.empty() && !contains(names, layer.name)) names.push_back(layer.name);
+  }
+  std::string axes = panel.y.label;
+  if (!panel.x.label.empty()) axes += (axes.empty() ? "over " : " over ") + panel.x.label;
+  return axes + (names.empty() ? "" : (axes.empty() ? "" : ": ") + listed(names));
+}
+
 }  // namespace
+
+Plot finished(Plot plot) {
+  std::set<std::string> named = {""};
+  for (PlotColumn& column : plot.columns) {
+    for (Panel& panel : column) {
+      panel.x = finished_x(panel, panel_width / static_cast<double>(plot.columns.size()));
+      panel.y = finished_y(panel);
+      for (Layer& layer : panel.layers) layer.in_legend = named.insert(layer.name).second;
+      plot.description += (plot.description.empty() ? "" : "; ") + description_of(panel);
+    }
+  }
+  return plot;
+}
 
 Plot plot_of(std::string title, std::string subtitle, Panel panel) {
   Plot plot{.title = std::move(title)};
   if (!subtitle.empty()) plot.subtitles.push_back(std::move(subtitle));
   plot.columns.resize(1);
   plot.columns.front().push_back(std::move(panel));
-  return plot;
+  return finished(std::move(plot));
 }
 
 void append(const MapCurve& curve, MapCurve& points) {
@@ -148,39 +174,42 @@ MapCurve rectangle(const Bounds& x, const Bounds& y) {
   return {{x.low, y.low}, {x.high, y.low}, {x.high, y.high}, {x.low, y.high}};
 }
 
-Layer zero_lines(const Panel& panel, Layer style) {
-  style.points = joined(
-      {{{*panel.x.low, 0.0}, {*panel.x.high, 0.0}}, {{0.0, *panel.y.low}, {0.0, *panel.y.high}}});
+Layer with(Layer style, MapCurve points) {
+  style.points = std::move(points);
   return style;
 }
 
-PlotAxis drawn_x(const Panel& panel, double width) {
-  return drawn_axis(panel, panel.x, &MapPoint::x, 0.0,
-                    std::clamp(static_cast<int>(width / 60.0), 4, 7));
-}
-
-PlotAxis drawn_y(const Panel& panel) {
-  constexpr double margin = 0.03;
-  return drawn_axis(panel, panel.y, &MapPoint::y, margin,
-                    std::clamp(static_cast<int>(panel.height / 25.0), 5, 7));
-}
-
-Plot drawn(Plot plot) {
-  for (PlotColumn& column : plot.columns) {
-    for (Panel& panel : column) {
-      panel.x = drawn_x(panel);
-      panel.y = drawn_y(panel);
+MapCurve near(MapCurve points, const Panel& panel) {
+  const auto is_near = [](double place) { return place > -1.0 && place < 2.0; };
+  for (MapPoint& point : points) {
+    if (!is_near(position_on(span_of(panel.x), point.x)) ||
+        !is_near(position_on(span_of(panel.y), point.y))) {
+      point = {not_a_number, not_a_number};
     }
   }
-  return plot;
+  return points;
 }
 
-std::string label_of(const PlotAxis& axis) {
-  return axis.name.empty() ? "" : name_with_unit(axis.name, axis.unit);
+Layer zero_lines(const Panel& panel, Layer style) {
+  return with(std::move(style), joined({{{panel.x.low, 0.0}, {panel.x.high, 0.0}},
+                                        {{0.0, panel.y.low}, {0.0, panel.y.high}}}));
 }
+
+PlotAxis finished_x(const Panel& panel, double width) {
+  return finished_axis(panel, panel.x, &MapPoint::x, 0.0,
+                       std::clamp(static_cast<int>(width / 60.0), 4, 7));
+}
+
+PlotAxis finished_y(const Panel& panel) {
+  constexpr double margin = 0.03;
+  return finished_axis(panel, panel.y, &MapPoint::y, margin,
+                       std::clamp(static_cast<int>(panel.height / 25.0), 5, 7));
+}
+
+std::string label_of(const PlotAxis& axis) { return name_with_unit(axis.name, axis.unit); }
 
 Axis span_of(const PlotAxis& axis) {
-  return {.values = {axis.low.value(), axis.high.value()}, .logarithmic = axis.logarithmic};
+  return {.values = {axis.low, axis.high}, .logarithmic = axis.logarithmic};
 }
 
 std::string mixed(const Colour& from, const Colour& to, double share) {
