@@ -24,17 +24,20 @@ print(gearlash.analyse(drive).headline)
 
 # %%
 friction, gain = drive["motor.friction"], drive["controller.proportional"]
-chart = [
-    gearlash.logarithmic("motor.friction", friction, 3000 * friction, 31),
-    gearlash.logarithmic("controller.proportional", gain / 10, 10 * gain, 31),
-]
-data = gearlash.sweep(drive, chart, ["amplitude", "frequency"])
+
+
+def chart(count: int) -> list[gearlash.Axis]:
+    return [gearlash.logarithmic("motor.friction", friction, 3000 * friction, count),
+            gearlash.logarithmic("controller.proportional", gain / 10, 10 * gain, count)]
+
+
+data = gearlash.sweep(drive, chart(31), ["amplitude", "frequency"])
 words = gearlash.verdict_words(data)
 for word in sorted(set(words.flat)):
     print(f"{word}: {(words == word).sum()} of {words.size} drives")
 print(f"largest amplitude: {float(data['amplitude'].max()):.4g} rad")
 
 # %%
-axes = plot.map(drive, chart, unit="mrad")
+axes = plot.map(drive, chart(9), unit="mrad")  # borders are found between its points
 if FIGURES:
     axes.figure.savefig(FIGURES / "design-chart.png", dpi=300)

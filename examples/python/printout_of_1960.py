@@ -14,7 +14,7 @@ import numpy as np
 from matplotlib import pyplot
 
 import gearlash
-from gearlash import plot, thesis
+from gearlash import thesis
 
 FIGURES = Path(sys.argv[1]) if len(sys.argv) > 1 else None
 
@@ -46,7 +46,7 @@ print(f"largest difference of the program from the exact motion: "
 
 # %%
 axes = pyplot.subplots(figsize=(3.5, 2.6), layout="constrained")[1]
-axes.plot(exact.time, exact.load_position, color=plot.COLOURS["load"], linewidth=0.9, label="exact")
+axes.plot(exact.time, exact.load_position, linewidth=0.9, label="exact")
 axes.plot(printed[:, 0], printed[:, 4], "k.", markersize=3, label="Table II")
 axes.set_xlabel("time (s)")
 axes.set_ylabel("load position (rad)")

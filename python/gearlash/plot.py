@@ -32,6 +32,7 @@ AxesLike = Mapping[str, AxisLike] | Sequence[Axis]
 _WIDTH = 3.5  # inches: a column
 _HEIGHT = 2.6  # of a panel of 480
 _POINTS = 0.45  # of a width of 1 in the library's plots
+_LINE = 0.135  # of titles and legends
 _LETTERS = 58  # in a column
 
 _MARKS = {"plus": "+", "cross": "x", "star": (8, 2, 0), "square": "s", "circle": "o", "disc": "o",
@@ -57,36 +58,41 @@ def draw(plot: Plot, *, ax: Axes | None = None) -> Axes:
     """
     if ax is not None:
         _draw_panel(plot.columns[0][0], ax, True)
-        _explain([ax], 1)
+        _explain(ax, [ax], 1, loc="lower center", bbox_to_anchor=(0.5, 1.0))
         return ax
     width = len(plot.columns)
-    longest = max(plot.columns, key=len)
     lines = (plot.title, *plot.subtitles)
     title = "\n".join(textwrap.fill(line, _LETTERS * width) for line in lines if line)
-    named = sum(layer.in_legend for column in plot.columns for panel in column
-                for layer in panel.layers)
-    height = (sum(panel.height for panel in longest) / 480.0 * _HEIGHT + 0.5
-              + 0.14 * (title.count("\n") + named / 2))
+    named = [layer.name for column in plot.columns for panel in column for layer in panel.layers
+             if layer.in_legend]
+    rows = -(-len(named) // _columns(named, width))
+    heights = [panel.height for panel in max(plot.columns, key=len)]
+    above = _LINE * (title.count("\n") + 1.4)
+    height = sum(heights) / 480.0 * _HEIGHT + 0.5 + above + _LINE * rows
     figure, grid = pyplot.subplots(
-        len(longest), width, squeeze=False, layout="constrained", figsize=(_WIDTH * width, height),
-        gridspec_kw={"height_ratios": [panel.height for panel in longest]})
-    figure.suptitle(title, fontsize=8)
+        len(heights), width, squeeze=False, layout="constrained", figsize=(_WIDTH * width, height),
+        gridspec_kw={"height_ratios": heights})
+    figure.suptitle(title + "\n" * (rows + 1), fontsize=8)  # with room for the legend
     for column, panels in enumerate(plot.columns):
         for panel, axes in zip(panels, grid[:, column]):
             _draw_panel(panel, axes, panel is panels[-1])
-    _explain(grid.flat, width)
+    _explain(figure, grid.flat, width, loc="upper center",
+             bbox_to_anchor=(0.5, 1.0 - above / height))
     return grid[0, 0]
 
 
-def _explain(placed: Iterable[Axes], width: int) -> None:
-    """Put the legend of all axes above the first."""
-    all_axes = list(placed)
-    entries = [entry for axes in all_axes for entry in zip(*axes.get_legend_handles_labels())]
-    if not entries:
-        return
-    columns = _LETTERS * width // (max(len(name) for _, name in entries) + 8)
-    all_axes[0].legend(*zip(*entries), frameon=False, fontsize=6.5, loc="lower center",
-                       bbox_to_anchor=(0.5 + 0.6 * (width - 1), 1.0), ncols=max(1, min(4, columns)))
+def _columns(named: list[str], width: int) -> int:
+    """Of the legend, whose letters are smaller."""
+    longest = max((len(name) for name in named), default=0)
+    return max(1, min(4, 5 * _LETTERS * width // 4 // (longest + 8)))
+
+
+def _explain(place: Any, placed: Iterable[Axes], width: int, **where: Any) -> None:
+    """Put the legend of these axes into a place."""
+    entries = [entry for axes in placed for entry in zip(*axes.get_legend_handles_labels())]
+    if entries:
+        place.legend(*zip(*entries), frameon=False, fontsize=6.5, borderpad=0.0, labelspacing=0.4,
+                     ncols=_columns([name for _, name in entries], width), **where)
 
 
 def _draw_panel(panel: Panel, ax: Axes, is_last: bool) -> None:

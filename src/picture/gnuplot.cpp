@@ -64,9 +64,12 @@ std::string quoted(const std::string& text, const std::string& style = "") {
   return safe + (style.empty() ? "'" : "}'");
 }
 
-/// The text in as many lines as it needs.
+/// The text in as many lines as it needs, of about the same length.
 std::vector<std::string> in_lines(const std::string& text, std::size_t width) {
-  std::istringstream wrapped_text(wrapped(text, width));
+  constexpr std::size_t word = 8;
+  const std::size_t count = width_in_columns(text) / width + 1;
+  const std::size_t even = width_in_columns(text) / count + word;
+  std::istringstream wrapped_text(wrapped(text, std::min(even, width)));
   std::vector<std::string> lines;
   for (std::string line; std::getline(wrapped_text, line);) lines.push_back(line);
   return lines;

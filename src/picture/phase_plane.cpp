@@ -37,7 +37,7 @@ struct WayStyle {
 const WayStyle way_styles[] = {
     {MotionRole::to_rest,
      {.name = "start that leads to rest", .colour = "#444444", .size = 0.25},
-     {.name = "on its way to rest", .colour = "#6e6e6e", .width = 0.9, .dashes = "3,3"}},
+     {.name = "on its way to rest", .colour = "#6e6e6e", .width = 1.3, .dashes = "6,2"}},
     {MotionRole::to_hunting,
      {.name = "to hunting", .colour = load_colour, .mark = Mark::circle},
      {.name = "on its way to hunting", .colour = "#56b4e9", .width = 0.9}},
@@ -178,7 +178,14 @@ class PhasePanel {
 
   void add(Layer layer, const std::string& name, ShaftLine drawn) {
     layer.name = name;
-    layer.points = near(std::move(drawn.line), panel);
+    const auto is_inside = [&](const MapPoint& point) {
+      return x_.contains(point.x) && y_.contains(point.y);
+    };
+    if (any_of(drawn.line, is_inside) || name.empty()) {
+      layer.points = near(std::move(drawn.line), panel);
+    } else {
+      layer.name += ", outside";
+    }
     panel.layers.push_back(std::move(layer));
     if (drawn.leaps.empty()) return;
     panel.layers.push_back(with(leap_style, near(std::move(drawn.leaps), panel)));

@@ -110,7 +110,7 @@ Plot steps_plot(const PictureQuestion& question, Progress& progress) {
 
 Plot run_plot(const PictureQuestion& question, Progress& progress) {
   if (question.varied.empty()) {
-    refuse("picture", "of a production run", "must be left out: no number has a tolerance");
+    refuse("varied", "none", "must have a number with a tolerance, such as \"0.61 oz in2 ± 10 %\"");
   }
   TolerancedDrive series{question.drive, question.varied};
   const bool searched = is_searched(series);

@@ -226,7 +226,7 @@ TEST_F(DriveCommand, EdgeFaultsOfFileAndOptionsAreToldTogether) {
               ElementsAre(HasSubstr("--damping = 0.2: must be left out")));
   const std::string sampled = "examples/dynamixel-joint.toml";
   EXPECT_THAT(run_tool({"limit-cycle", sampled, "--plot", "tornado=a.svg"}).err,
-              HasSubstr("--plot = tornado: must be left out: this drive has no sensitivities; "));
+              HasSubstr("picture = tornado: must be left out: this drive has no sensitivities; "));
   const std::string bad = file(std::string(mechanics) + "[controller]\nkind = \"PI\"\n");
   const Outcome several = run_tool({"simulate", bad, "--until", "0"});
   EXPECT_EQ(several.status, 2);

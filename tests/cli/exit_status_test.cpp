@@ -94,7 +94,7 @@ TEST(ExitStatus, TwoForAPictureThatTheDriveDoesNotHaveWhoseAnswerIsPrinted) {
                                 "tornado=" + (scratch / "a.svg").string()});
   EXPECT_EQ(run.status, 2);
   EXPECT_THAT(run.out, StartsWith("comes to rest"));
-  EXPECT_THAT(run.err, HasSubstr("--plot = tornado: must be left out"));
+  EXPECT_THAT(run.err, HasSubstr("picture = tornado: must be left out"));
 }
 
 TEST(ExitStatus, ThreeStandsOverOne) {

@@ -113,8 +113,7 @@ def test_matplotlib_draws_every_layer(pictures):
                     assert np.array_equal(found, points_of(layer)), (*key, layer.name)
                 assert ax.get_ylabel() == panel.y.label, key
             assert grid[len(column) - 1, i].get_xlabel() == column[-1].x.label, key
-        legend = figure.axes[0].get_legend()
-        texts = legend.get_texts() if legend else []
+        texts = figure.legends[0].get_texts() if figure.legends else []
         assert [text.get_text() for text in texts] == legend_of(drawn), key
         pyplot.close(figure)
 

@@ -99,7 +99,7 @@ def test_a_production_run_in_three_pictures(servo):
 
 
 def test_a_figure_of_the_thesis():
-    names = [text.get_text() for text in plot.figure(7).get_legend().get_texts()]
+    names = [text.get_text() for text in plot.figure(7).figure.legends[0].get_texts()]
     assert names[0] == "damping 0.1" and names[-1] == "hunting ends"
     with pytest.raises(ValueError, match="2 to 15"):
         plot.figure(1)

@@ -244,7 +244,7 @@ TEST_F(WebCore, EveryOtherPictureIsDrawnOrSaysWhyNot) {
     EXPECT_FALSE(reply["plot"]["description"].is_null()) << kind;
   }
   const Json reply = ask({{"ask", "picture"}, {"kind", "yield"}, {"drive", drive(servo)}});
-  EXPECT_EQ(reply["faults"][0]["permitted"], "must be left out: no number has a tolerance");
+  EXPECT_EQ(reply["faults"][0]["path"], "varied");
 }
 
 TEST_F(WebCore, MarginsAreTextsThatCanBeSet) {

@@ -40,6 +40,7 @@ function scale(axis: core.PlotAxis, from: number, to: number): Scale {
 /** A panel in its place on the picture. */
 interface Placed {
   panel: Panel;
+  left: number;
   top: number;
   bottom: number;
   x: Scale;
@@ -51,14 +52,16 @@ interface Placed {
 export function placed(plot: Plot, width: number): Placed[] {
   const usual = width * (width < 460 ? 0.8 : 0.66) - frame.top - frame.bottom;
   const least = 90; // px: room for the name of its axis
+  const longest = Math.max(...plot.columns.flat().flatMap((panel) => panel.y.tics.map(({ text }) => text?.length ?? 0)));
+  const left = Math.max(frame.left, Math.min(0.5 * width, 36 + letter * longest));
   let top = frame.top;
   return plot.columns.flatMap((column) =>
     column.map((panel, i) => {
       const isLast = i === column.length - 1;
       if (panel.title) top += frame.title;
-      const place = { panel, top, bottom: Math.round(top + Math.max(least, (usual * panel.height) / 480)), isLast };
+      const place = { panel, left, top, bottom: Math.round(top + Math.max(least, (usual * panel.height) / 480)), isLast };
       top = place.bottom + (isLast ? frame.bottom : frame.between);
-      return { ...place, x: scale(panel.x, frame.left, width - frame.right), y: scale(panel.y, place.bottom, place.top) };
+      return { ...place, x: scale(panel.x, left, width - frame.right), y: scale(panel.y, place.bottom, place.top) };
     }),
   );
 }
@@ -125,9 +128,10 @@ function layerText(layer: Layer, x: Scale, y: Scale): string {
   return marks;
 }
 
-function axesText({ panel, top, bottom, x, y, isLast }: Placed, width: number): string {
+function axesText({ panel, left, top, bottom, x, y, isLast }: Placed, width: number): string {
   const right = width - frame.right;
-  const [middle, centre] = [(frame.left + right) / 2, (top + bottom) / 2];
+  const half = (letter * (panel.x.label?.length ?? 0)) / 2;
+  const [middle, centre] = [Math.min((left + right) / 2, Math.max(width / 2, width - half)), (top + bottom) / 2];
   let text = panel.title ? `<text x="${middle}" y="${top - 7}" text-anchor="middle" fill="${theme.faint}" font-size="12.5">${escapeText(panel.title)}</text>` : '';
   for (const tic of panel.x.tics) {
     const place = at(x(tic.at));
@@ -136,8 +140,8 @@ function axesText({ panel, top, bottom, x, y, isLast }: Placed, width: number): 
   }
   for (const tic of panel.y.tics) {
     const place = at(y(tic.at));
-    if (tic.text && panel.y.has_grid) text += `<path d="M${frame.left} ${place}H${right}" stroke="${theme.grid}"/>`;
-    if (tic.text) text += `<text x="${frame.left - 7}" y="${Number(place) + 4}" text-anchor="end" fill="${theme.faint}" font-size="12">${escapeText(tic.text)}</text>`;
+    if (tic.text && panel.y.has_grid) text += `<path d="M${left} ${place}H${right}" stroke="${theme.grid}"/>`;
+    if (tic.text) text += `<text x="${left - 7}" y="${Number(place) + 4}" text-anchor="end" fill="${theme.faint}" font-size="12">${escapeText(tic.text)}</text>`;
   }
   if (isLast) text += `<text x="${middle}" y="${bottom + 36}" text-anchor="middle" fill="${theme.ink}" font-size="13">${escapeText(panel.x.label ?? '')}</text>`;
   return text + `<text x="16" y="${centre}" text-anchor="middle" fill="${theme.ink}" font-size="13" transform="rotate(-90 16 ${centre})">${escapeText(panel.y.label ?? '')}</text>`;
@@ -147,10 +151,10 @@ let clips = 0;
 
 /** A panel with all that is in it. Marks at the end of an axis are drawn whole, others outside not at all. */
 function panelText(one: Placed, width: number): string {
-  const { panel, top, bottom, x, y } = one;
+  const { panel, left, top, bottom, x, y } = one;
   const clip = `clip${++clips}`;
   const rectangle = (margin: number, style = ''): string =>
-    `<rect x="${frame.left - margin}" y="${top - margin}" width="${width - frame.left - frame.right + 2 * margin}" height="${bottom - top + 2 * margin}" ${style}/>`;
+    `<rect x="${left - margin}" y="${top - margin}" width="${width - left - frame.right + 2 * margin}" height="${bottom - top + 2 * margin}" ${style}/>`;
   const text = (isOf: (layer: Layer) => boolean): string => panel.layers.filter(isOf).map((layer) => layerText(layer, x, y)).join('');
   const words = panel.texts
     .map((word) => {

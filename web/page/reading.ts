@@ -28,8 +28,8 @@ const along = (axis: core.PlotAxis, share: number): number =>
 export function spotAt(plot: Plot, width: number, point: { x: number; y: number }): Pointed | null {
   const pointed = placed(plot, width).find(({ top, bottom }) => point.y >= top && point.y <= bottom);
   if (!pointed) return null;
-  const { panel, top, bottom } = pointed;
-  const [left, end] = [frame.left, width - frame.right];
+  const { panel, left, top, bottom } = pointed;
+  const end = width - frame.right;
   const right = Math.max(left, Math.min(end, point.x));
   return {
     column: plot.columns.findIndex((column) => column.includes(panel)),
