@@ -74,6 +74,9 @@ Plot grid_plot(const PictureQuestion& question, Progress& progress) {
   GridTable table{.grid = {.drive = question.drive, .axes = question.axes}};
   require_none(faults(table.grid));
   require_none(faults_of_picture(table.grid, {}, !is_map));
+  for (const Axis& axis : question.axes) {
+    if (is_map && axis.values.size() < 2) refuse(axis.path, "1 value", "must have two or more");
+  }
   table.present = is_map && question.marks_drive ? place_on_map(table.grid) : std::nullopt;
   if (!question.target.empty()) {
     table.target_text = question.target;
@@ -103,7 +106,7 @@ Plot steps_plot(const PictureQuestion& question, Progress& progress) {
   const Axis places{.path = "sensor.position", .values = {0.0, 1.0, 2.0}};
   ComparisonReport report{.axis = question.axes.empty() ? places : question.axes.front()};
   require_none(faults(Grid{.drive = question.drive, .axes = {*report.axis}}));
-  const std::vector<NamedDrive> drives = drives_along(*report.axis, question.drive);
+  const std::vector<NamedDrive> drives = named_along(*report.axis, question.drive);
   report.drives = compare(drives, {}, progress);
   return comparison_plot(report);
 }
@@ -119,8 +122,9 @@ Plot run_plot(const PictureQuestion& question, Progress& progress) {
                                  searched ? Quantity::motor_amplitude : Quantity::amplitude};
   const SamplePlan plan = usual_sampling(series, asked);
   const ToleranceStudy study = study_tolerances(series, plan, asked, progress);
-  if (question.kind != PictureKind::indices)
+  if (question.kind != PictureKind::indices) {
     return tolerance_plot(question.kind, study, question.drive.angle_unit);
+  }
   return indices_plot(study, study_sensitivities(series, plan, asked, progress));
 }
 
