@@ -22,8 +22,8 @@ from gearlash._analysis import Progress
 from gearlash._drive import Drive
 from gearlash._methods import Answer
 from gearlash._motion import Motion, simulate
-from gearlash._records import (Axis, Cycle, Layer, Panel, PictureQuestion, Plot, PlotAxis,
-                               SensitivityStudy, Start, ToleranceStudy)
+from gearlash._records import (Axis, Cycle, Layer, Panel, PictureKind, PictureQuestion, Plot,
+                               PlotAxis, SensitivityStudy, Start, ToleranceStudy)
 from gearlash._sweep import AxisLike, grid_of
 
 Axes = Any  # matplotlib.axes.Axes
@@ -187,7 +187,7 @@ def _settling_time(which: Cycle) -> float:
 # ---- of a drive ----------------------------------------------------------------------------------
 
 
-def picture(kind: str, drive: Drive, axes: AxesLike = (), *, unit: str = "rad",
+def picture(kind: PictureKind, drive: Drive, axes: AxesLike = (), *, unit: str = "rad",
             progress: Progress = None, ax: Axes | None = None, **question: Any) -> Axes:
     """Draw the picture of that kind; further arguments are members of :class:`PictureQuestion`."""
     varied, grid = grid_of(drive, axes)

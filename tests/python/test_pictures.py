@@ -60,7 +60,7 @@ def question_of(kind, drive):
     axes = (axis(other, 2), axis(gap, 3))[2 - WITH_AXES.get(kind, 0):]
     about = gearlash.UniformAbout(drive[gap], 0.1 * drive[gap])
     varied = (gearlash.ParameterTolerance(gap, about),)
-    return gearlash.PictureQuestion(kind=kind, drive=drive, axes=axes,
+    return gearlash.PictureQuestion(kind=kind, drive=drive, angle="rad", axes=axes,
                                     varied=varied if kind in OF_A_RUN else ())
 
 
