@@ -235,7 +235,9 @@ includes: single  ## does every header and every .cpp file compile by itself?
 single:
 	@$(INSTALL) test
 	cmake --preset single
-	$(BUILD) single --target gearlash_unit_table --target gearlash_records --target gearlash_python_records --target gearlash_reply_records
+	$(BUILD) single $(addprefix --target ,gearlash_unit_table gearlash_records gearlash_documents \
+	                                      gearlash_python_records gearlash_reply_records \
+	                                      made_up_records)
 
 # Packed files have the date of the last commit, or of the changelog without git, so that the same
 # sources give the same bytes.
