@@ -21,9 +21,9 @@
 #include <system_error>
 #include <vector>
 
+#include "gearlash/output.hpp"
 #include "gearlash/version.hpp"
 #include "output/grid_netcdf.hpp"
-#include "output/output_file.hpp"
 #include "question/map/grid_pieces.hpp"
 #include "question/map/hunting_boundary.hpp"
 

@@ -28,7 +28,7 @@ function(gearlash_make_records target)
 endfunction()
 
 set(GEARLASH_PUBLIC_RECORDS fault bounds parameter quantity answer analyse motion sensitivity grid
-                            design tolerance tune comparison plot picture)
+                            design tolerance tune comparison plot picture output)
 list(TRANSFORM GEARLASH_PUBLIC_RECORDS PREPEND "${PROJECT_SOURCE_DIR}/include/gearlash/")
 list(TRANSFORM GEARLASH_PUBLIC_RECORDS APPEND ".hpp")
 set(GEARLASH_PUBLIC_RECORDS ${GEARLASH_PUBLIC_RECORDS} PARENT_SCOPE)

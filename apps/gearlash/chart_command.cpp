@@ -1,7 +1,7 @@
 // gearlash chart: a family of curves over any parameters of the drive.
 #include <fmt/format.h>
 
-#include "base/fault.hpp"
+#include "gearlash/fault.hpp"
 #include "base/lists.hpp"
 #include "grid_options.hpp"
 #include "picture/bifurcation_picture.hpp"

@@ -5,8 +5,8 @@
 #include <cctype>
 
 #include "base/lists.hpp"
-#include "input/section_reader.hpp"
-#include "input/units.hpp"
+#include "gearlash/input.hpp"
+#include "gearlash/units.hpp"
 
 namespace gearlash::cli {
 namespace {

@@ -4,12 +4,12 @@
 #include <set>
 
 #include "base/lists.hpp"
+#include "gearlash/comparison.hpp"
+#include "gearlash/input.hpp"
+#include "gearlash/units.hpp"
 #include "grid_options.hpp"
-#include "input/target_text.hpp"
-#include "input/units.hpp"
 #include "output/comparison_report.hpp"
 #include "picture/report_pictures.hpp"
-#include "question/analyse.hpp"
 #include "verb.hpp"
 
 namespace gearlash::cli {

@@ -1,7 +1,7 @@
 // gearlash describe: what describing functions predict, beside the exact cycle.
 #include "base/lists.hpp"
 #include "gearlash/analyse.hpp"
-#include "input/units.hpp"
+#include "gearlash/units.hpp"
 #include "output/describe_report.hpp"
 #include "picture/nyquist_picture.hpp"
 #include "verb.hpp"

@@ -4,13 +4,11 @@
 #include <algorithm>
 
 #include "base/lists.hpp"
+#include "gearlash/input.hpp"
 #include "grid_options.hpp"
-#include "input/axis_text.hpp"
-#include "input/section_reader.hpp"
 #include "output/design_report.hpp"
 #include "picture/grid_chart.hpp"
 #include "picture/grid_map.hpp"
-#include "question/axis.hpp"
 #include "question/change/design.hpp"
 #include "verb.hpp"
 

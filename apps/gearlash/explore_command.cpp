@@ -3,10 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/lists.hpp"
-#include "input/section_reader.hpp"
-#include "input/text_file.hpp"
+#include "gearlash/input.hpp"
 #include "input/utf8.hpp"
-#include "model/parameters.hpp"
 #include "output/drive_text.hpp"
 #include "verb.hpp"
 
@@ -60,17 +58,14 @@ Tables take_tables(Drive& drive, const std::string& file) {
   constexpr std::size_t largest_table = 64U * 1024U * 1024U;
   const fs::path folder = file == "-" ? fs::path() : fs::path(file).parent_path();
   Tables tables;
-  for (const Parameter& parameter : all_parameters_of_drives()) {
-    const Slot slot = parameter.slot(drive);
-    auto* const* name = std::get_if<std::string*>(&slot);
-    if (name == nullptr || (*name)->empty()) continue;
-    const fs::path written = **name;
+  for (const NamedTable& table : named_tables(drive)) {
+    const fs::path written = *table.file;
     const std::string base = as_utf8(written.filename().string());
     tables.files[base] = as_utf8(read_text_file(folder / written, largest_table));
-    if (**name != base) {
-      tables.settings.push_back(nlohmann::ordered_json::array({parameter.path, base}));
+    if (*table.file != base) {
+      tables.settings.push_back(nlohmann::ordered_json::array({table.path, base}));
     }
-    **name = base;
+    *table.file = base;
   }
   return tables;
 }

@@ -5,14 +5,11 @@
 #include <cmath>
 
 #include "base/lists.hpp"
-#include "base/progress_part.hpp"
 #include "base/range_check.hpp"
-#include "input/target_text.hpp"
+#include "gearlash/input.hpp"
 #include "picture/grid_chart.hpp"
 #include "picture/grid_map.hpp"
 #include "question/family/evaluation.hpp"
-#include "question/map/grid_pieces.hpp"
-#include "question/map/hunting_boundary.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -243,36 +240,6 @@ std::string solved_text(const RowCount& count) {
   return text;
 }
 
-namespace {
-
-/// Writes each block while the next one is computed, instead of output.write().
-RowCount write_netcdf(const GridTask& task, const Provenance& provenance, const OutputFile& output,
-                      Progress& progress) {
-  constexpr std::size_t points_at_a_time = std::size_t{1} << 15U;  // 3 MB, which caches hold
-  const std::vector<Quantity> quantities = quantities_of(task);
-  GridNetcdf file =
-      GridNetcdf::create(output.descriptor_of_file(), output.shown_name(),
-                         {.grid = task.grid, .quantities = quantities, .provenance = provenance});
-  std::vector<double> growth_at_rest;
-  if (task.has_boundary) growth_at_rest.reserve(task.grid.size());
-  const RowCount count = evaluate_in_pieces(
-      task.grid, quantities, 0, points_at_a_time,
-      [&](const GridPiece& piece) {
-        file.write(piece);
-        if (!task.has_boundary) return;
-        const std::span<const double> growth = piece.table[Quantity::growth_at_rest];
-        add_all(growth_at_rest, growth);
-      },
-      progress, steady_seconds);
-  if (task.has_boundary && !count.stopped) {
-    ProgressPart at_end(progress, 1.0, 1.0);
-    file.write_boundary(hunting_boundary(task.grid, growth_at_rest, at_end));
-  }
-  return count;
-}
-
-}  // namespace
-
 WorkedOut work_out(const GridTask& task, LimitedWork& work, const Provenance& provenance) {
   WorkedOut done{.table = task};
   done.table.table = Table(task.grid.size(), quantities_of(task));
@@ -296,7 +263,10 @@ ExitStatus make_grid_files(const GridTask& task, LimitedWork& work, const Proven
       task.plots.empty() && !task.target && ending_of(task.table_file) == ".nc";
   if (is_streamed) {
     TerminalProgress progress(work, task.title, task.grid.size(), "points");
-    done.count = write_netcdf(task, provenance, *output, progress);
+    done.count = write_grid_netcdf(
+        output->descriptor_of_file(), output->shown_name(),
+        {.grid = task.grid, .quantities = quantities_of(task), .provenance = provenance},
+        task.has_boundary, progress, steady_seconds);
   } else {
     done = work_out(task, work, provenance);
   }

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "input/axis_text.hpp"
+#include "gearlash/input.hpp"
+#include "gearlash/output.hpp"
 #include "output/grid_netcdf.hpp"
 #include "output/grid_table.hpp"
 #include "verb.hpp"

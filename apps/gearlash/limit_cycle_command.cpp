@@ -1,9 +1,8 @@
 // gearlash limit-cycle: whether a drive hunts, with the amplitude and frequency.
 #include <numbers>
 
-#include "base/special_numbers.hpp"
-#include "input/axis_text.hpp"
-#include "input/units.hpp"
+#include "gearlash/input.hpp"
+#include "gearlash/units.hpp"
 #include "output/answer_report.hpp"
 #include "picture/answer_picture.hpp"
 #include "picture/report_pictures.hpp"

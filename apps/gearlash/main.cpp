@@ -6,8 +6,8 @@
 #include <exception>
 #include <new>
 
+#include "gearlash/output.hpp"
 #include "gearlash/version.hpp"
-#include "output/columns.hpp"
 #include "verb.hpp"
 
 namespace gearlash::cli {

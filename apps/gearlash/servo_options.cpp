@@ -6,16 +6,10 @@
 #include <utility>
 
 #include "base/lists.hpp"
-#include "base/special_numbers.hpp"
+#include "gearlash/input.hpp"
+#include "gearlash/output.hpp"
 #include "gearlash/parameter.hpp"
-#include "input/section_reader.hpp"
-#include "input/target_text.hpp"
-#include "input/text_file.hpp"
 #include "model/parameters.hpp"
-#include "model/reduced_drive.hpp"
-#include "output/output_file.hpp"
-#include "question/analyse.hpp"
-#include "question/axis.hpp"
 #include "verb.hpp"
 
 namespace gearlash::cli {
@@ -112,7 +106,7 @@ std::vector<Setting> settings_of(const ServoOptions& options, Faults& faults) {
     const auto& [name, path, help] = specification_options[i];
     const std::string& text = *options.asked[i];
     const auto read = [&] { return to_si(name, text, dimensions::angle); };
-    const double angle = faults.collect(read, not_a_number);
+    const double angle = faults.collect(read, std::nan(""));
     const bool may_be_negative = std::string_view(path) == "specification.step";
     if (angle == 0.0 || (angle < 0.0 && !may_be_negative)) {
       faults.add(name, shown(text),
@@ -240,16 +234,10 @@ Axis collect_axis(const std::function<Axis(std::string* left_out)>& read, Faults
   return axis;
 }
 
-std::vector<FileUse> named_tables(Drive drive, const std::string& file) {
-  std::vector<FileUse> tables;
-  for (const Parameter& parameter : all_parameters_of_drives()) {
-    const Slot slot = parameter.slot(drive);
-    const auto* const* name = std::get_if<std::string*>(&slot);
-    if (name == nullptr || (*name)->empty()) continue;
-    tables.push_back(
-        {std::string(parameter.path), (fs::path(file).parent_path() / **name).string()});
-  }
-  return tables;
+std::vector<FileUse> files_of_tables(Drive drive, const std::string& file) {
+  return of_each(named_tables(drive), [&](const NamedTable& table) {
+    return FileUse{std::string(table.path), (fs::path(file).parent_path() / *table.file).string()};
+  });
 }
 
 namespace {
@@ -451,7 +439,7 @@ std::optional<WrittenDrive> resolve_drive(const ServoOptions& options,
   refuse_given_twice(options, faults);
   std::optional<WrittenDrive> written = read_drive_or_faults(options, faults);
   std::vector<FileUse> inputs;
-  if (written) inputs = named_tables(written->drive, options.file);
+  if (written) inputs = files_of_tables(written->drive, options.file);
   if (options.file == "-") inputs.push_back({"standard input", "/dev/stdin"});
   if (!options.file.empty()) inputs.push_back({"DRIVE.toml", options.file});
   faults.require_distinct(std::move(inputs), outputs);

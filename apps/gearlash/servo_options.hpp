@@ -13,9 +13,8 @@
 #include "command_line.hpp"
 #include "gearlash/design.hpp"
 #include "gearlash/grid.hpp"
-#include "input/axis_text.hpp"
-#include "input/drive_file.hpp"
-#include "input/units.hpp"
+#include "gearlash/input.hpp"
+#include "gearlash/units.hpp"
 #include "model/proportional_servo.hpp"
 #include "question/axis.hpp"
 
@@ -142,7 +141,7 @@ std::optional<WrittenDrive> resolve_drive(const ServoOptions& options,
                                           const std::vector<FileUse>& outputs, Faults& faults);
 
 /// The tables that a drive of this file ("-": standard input) names, in the file or by --set.
-std::vector<FileUse> named_tables(Drive drive, const std::string& file);
+std::vector<FileUse> files_of_tables(Drive drive, const std::string& file);
 
 /// The servo of 1960 that the drive is. Throws InvalidInput, located at the file, for any other.
 ProportionalServo servo_of_1960(const WrittenDrive& written, const ServoOptions& options);

@@ -6,14 +6,11 @@
 #include <cstring>
 
 #include "base/range_check.hpp"
+#include "gearlash/analyse.hpp"
 #include "gearlash/motion.hpp"
-#include "general/attractors/search_setting.hpp"
-#include "input/units.hpp"
-#include "output/answer_report.hpp"
+#include "gearlash/units.hpp"
 #include "output/motion_report.hpp"
 #include "picture/motion_picture.hpp"
-#include "question/analyse.hpp"
-#include "question/motion.hpp"
 #include "verb.hpp"
 
 namespace gearlash::cli {
@@ -94,14 +91,6 @@ Start read_start(const SimulateOptions& options, Faults& faults) {
       .gap_speed = read("--initial-gap-speed", options.initial_gap_speed, speed).value_or(0.0)};
 }
 
-/// A step that shows hunting: five backlashes, at least twenty encoder counts, and three times the
-/// error that friction holds.
-double default_reference(const drive::ReducedDrive& reduced) {
-  const double step = std::max({5.0 * reduced.backlash, 20.0 * reduced.sensing.resolution,
-                                3.0 * drive::held_length(reduced)});
-  return step > 0.0 && std::isfinite(step) ? step : 1.0;
-}
-
 /// From --reference, else from the file, else a step. Its unit is used if the file has radians.
 void set_reference(const std::optional<Measured>& typed, WrittenDrive& written) {
   if (typed) {
@@ -110,25 +99,15 @@ void set_reference(const std::optional<Measured>& typed, WrittenDrive& written) 
       written.drive.angle_unit = angle_unit_of(*typed);
     }
   } else if (!written.drive.reference) {
-    written.drive.reference = default_reference(reduce(written.drive));
+    written.drive.reference = usual_step(written.drive);
   }
 }
 
-/// The default end is ten periods of the loop plus twice the settling time of the signals. `drive`
-/// is nullptr if it has faults.
+/// `drive` is nullptr if it has faults.
 void read_times(const SimulateOptions& options, const Drive* drive, SimulateRequest& task,
                 Faults& faults) {
-  constexpr double periods = 10.0;
-  task.until = 1.0;
-  if (drive != nullptr) {
-    const auto settling_time = [](const std::optional<Signal>& signal) {
-      return signal ? drive::settling_time(*signal) : 0.0;
-    };
-    task.period = period_of_loop(*drive);
-    task.until =
-        2.0 * std::max(settling_time(drive->reference), settling_time(drive->load_torque)) +
-        periods * task.period;
-  }
+  task.period = drive != nullptr ? period_of_loop(*drive) : 1.0;
+  task.until = drive != nullptr ? usual_time(*drive) : 1.0;
   if (options.until) task.until = read_time("--until", *options.until, faults);
   task.every = task.until / default_samples;
   if (options.every) task.every = read_time("--every", *options.every, faults);
@@ -181,18 +160,17 @@ Motion simulated(const SimulateRequest& task, const SimulateOptions& options, Li
 // ---- pictures -----------------------------------------------------------------------------------
 
 std::string title_of(const SimulateRequest& task) {
-  const auto angle = [&](double radians) {
-    return angle_text(radians, task.written.drive.angle_unit, 4);
-  };
+  const DriveUnits units(task.written.drive);
   const Signal reference = task.written.drive.reference.value_or(Signal{});
   const bool is_at_rest = task.start.load_position == 0.0 && task.start.load_speed == 0.0;
   if (!is_at_rest) {
-    return fmt::format("Motion from {}, {}/s", angle(task.start.load_position),
-                       angle(task.start.load_speed));
+    return fmt::format("Motion from {}, {}/s", units.angle(task.start.load_position),
+                       units.angle(task.start.load_speed));
   }
-  if (const auto* constant = std::get_if<double>(&reference)) return "Step to " + angle(*constant);
+  if (const auto* constant = std::get_if<double>(&reference))
+    return "Step to " + units.angle(*constant);
   const auto* step = std::get_if<StepSignal>(&reference);
-  return step != nullptr ? "Step to " + angle(step->after) : "Response to the reference";
+  return step != nullptr ? "Step to " + units.angle(step->after) : "Response to the reference";
 }
 
 struct KnownHunting {
@@ -203,8 +181,7 @@ struct KnownHunting {
 KnownHunting hunting_of(const WrittenDrive& written, LimitedWork& work) {
   const Answer answer =
       analyse(written.drive, {.proofs = false}, TerminalProgress(work, "Searching").as_argument());
-  return {headline(report_of(written.drive, answer, {})),
-          answer.value(Quantity::period).value_or(0.0)};
+  return {headline(written.drive, answer), answer.value(Quantity::period).value_or(0.0)};
 }
 
 /// The motion until its hunting shows, unless --until was typed. Tables end earlier.

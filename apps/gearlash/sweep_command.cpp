@@ -3,10 +3,10 @@
 
 #include <filesystem>
 
+#include "gearlash/input.hpp"
+#include "gearlash/units.hpp"
 #include "grid_options.hpp"
-#include "input/sweep_file.hpp"
-#include "input/units.hpp"
-#include "sweep_run.hpp"
+#include "output/sweep_run.hpp"
 #include "verb.hpp"
 
 namespace gearlash::cli {
@@ -63,7 +63,7 @@ ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
   for (const std::filesystem::path& file : unfinished_files(options.output)) {
     outputs.push_back({"--output, while unfinished", file.string()});
   }
-  std::vector<FileUse> inputs = named_tables(sweep.grid.drive, options.file);
+  std::vector<FileUse> inputs = files_of_tables(sweep.grid.drive, options.file);
   inputs.push_back({"SWEEP.toml", options.file});
   faults.require_distinct(std::move(inputs), outputs);
   faults.require_writable({outputs.front()});
@@ -72,10 +72,10 @@ ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
 
   for (const std::string& line : sweep.left_out) report_lines(line);
   LimitedWork work(limits);
-  const RowCount done =
-      run_sweep(sweep, provenance_of(options, provenance), options.output,
-                options.resume ? SweepStart::resume : SweepStart::anew,
-                TerminalProgress(work, "Sweep", sweep.grid.size(), "points").as_argument());
+  const RowCount done = run_sweep(
+      sweep, provenance_of(options, provenance), options.output,
+      options.resume ? SweepStart::resume : SweepStart::anew,
+      TerminalProgress(work, "Sweep", sweep.grid.size(), "points").as_argument(), steady_seconds);
   if (done.points() < sweep.grid.size()) {
     report_stop(done.points(), sweep.grid.size(), options.output);
     work.end();

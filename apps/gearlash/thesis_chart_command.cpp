@@ -5,8 +5,8 @@
 
 #include "base/lists.hpp"
 #include "base/progress_part.hpp"
-#include "input/section_reader.hpp"
-#include "output/columns.hpp"
+#include "gearlash/input.hpp"
+#include "gearlash/output.hpp"
 #include "thesis/chart_reading.hpp"
 #include "thesis/exact_curve.hpp"
 #include "thesis/extensions.hpp"

@@ -3,11 +3,9 @@
 
 #include "base/lists.hpp"
 #include "gearlash/analyse.hpp"
+#include "gearlash/input.hpp"
 #include "gearlash/parameter.hpp"
 #include "gearlash/tune.hpp"
-#include "input/axis_text.hpp"
-#include "input/section_reader.hpp"
-#include "model/reduced_drive.hpp"
 #include "output/tune_report.hpp"
 #include "question/axis.hpp"
 #include "verb.hpp"
@@ -40,11 +38,11 @@ struct TuneOptions : QuestionOptions {
 };
 
 /// The usual target in words.
-std::string text_of_usual(const Target& target, const AngleUnit& angle) {
+std::string text_of_usual(const Target& target, const Drive& drive) {
   if (target.limits.empty()) return "no-hunting and no-runaway";
   const QuantityLimit& limit = target.limits.front();
   return std::string(limit.quantity == Quantity::amplitude ? "amplitude" : "motor-amplitude") +
-         " <= " + angle_text(limit.permitted.high, angle, 4) +
+         " <= " + DriveUnits(drive).angle(limit.permitted.high) +
          " (one step of the encoder) and no-runaway";
 }
 
@@ -97,7 +95,7 @@ TuneRequest read_request(const TuneOptions& options) {
   report.target_text = options.target;
   if (options.target.empty()) {
     task.target = usual_target(drive);
-    report.target_text = text_of_usual(task.target, written->drive.angle_unit);
+    report.target_text = text_of_usual(task.target, drive);
   } else {
     task.target = collect_target(options.target, &drive, faults);
   }

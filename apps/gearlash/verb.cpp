@@ -7,8 +7,8 @@
 #include <system_error>
 
 #include "base/lists.hpp"
-#include "input/section_reader.hpp"
-#include "input/units.hpp"
+#include "gearlash/input.hpp"
+#include "gearlash/units.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -75,7 +75,7 @@ Limits read_limits(const LimitOptions& options, Faults& faults) {
   Limits limits;
   if (!options.time.empty()) limits.seconds = read_time("--time-limit", options.time, faults);
   if (!options.memory.empty()) {
-    limits.bytes = faults.collect([&] { return read_memory(options.memory); }, infinity);
+    limits.bytes = faults.collect([&] { return read_memory(options.memory); }, no_limit);
   }
   return limits;
 }

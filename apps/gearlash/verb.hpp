@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "output/output_file.hpp"
-#include "output/report_units.hpp"
+#include "gearlash/output.hpp"
+#include "gearlash/units.hpp"
 #include "picture/gnuplot.hpp"
 #include "servo_options.hpp"
 #include "work.hpp"

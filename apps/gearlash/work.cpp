@@ -15,8 +15,8 @@
 #include <utility>
 
 #include "gearlash/analyse.hpp"
-#include "output/columns.hpp"
-#include "output/report_units.hpp"
+#include "gearlash/output.hpp"
+#include "gearlash/units.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -103,7 +103,7 @@ bool LimitedWork::go_on() {
     why_ = "a signal";
   } else if (now >= deadline_) {
     why_ = "--time-limit";
-  } else if (limits_.bytes < infinity && now >= next_look_) {
+  } else if (limits_.bytes < no_limit && now >= next_look_) {
     constexpr auto between_looks = std::chrono::milliseconds(10);  // each reads a file
     next_look_ = now + between_looks;
     if (peak_memory() > limits_.bytes) why_ = "--memory-limit";

@@ -3,10 +3,10 @@
 
 #include <chrono>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 
-#include "base/special_numbers.hpp"
 #include "gearlash/progress.hpp"
 
 namespace gearlash::cli {
@@ -26,10 +26,10 @@ class StopRequest {
   [[noreturn]] void obey() const;
 };
 
-/// Infinite where there is none.
+inline constexpr double no_limit = std::numeric_limits<double>::infinity();
 struct Limits {
-  double seconds = infinity;
-  double bytes = infinity;  ///< of the whole tool
+  double seconds = no_limit;
+  double bytes = no_limit;  ///< of the whole tool
 };
 
 /// Bytes that a search may keep of a motion, of so many searches at once.

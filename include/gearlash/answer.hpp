@@ -442,4 +442,7 @@ struct Answer {
 /// "closed form", "general".
 [[nodiscard]] const char* name_of(Engine engine);
 
+/// Whether the verdict is known. One of hunting is not if the search found no amplitude.
+[[nodiscard]] bool is_decided(const Answer& answer);
+
 }  // namespace gearlash

@@ -222,6 +222,10 @@ struct Drive {
 /// sound drive.
 [[nodiscard]] std::vector<Fault> faults(const Drive& drive);
 
+/// Whether the drive is a normal form without a natural frequency: ω_n is then 1 rad/s, and text
+/// has times in units of 1/ω_n.
+[[nodiscard]] bool is_normalized(const Drive& drive);
+
 /// The servo with ω_n = 1 rad/s, K = 1 N m/rad and J_M + J_L = 1 kg m²; see NormalForm.
 [[nodiscard]] Drive normal_form(double damping, double inertia_ratio, double friction_ratio,
                                 double backlash = 1.0, double restitution = 0.0);

@@ -31,4 +31,14 @@ class InvalidInput : public std::invalid_argument {
   std::vector<Fault> faults_;
 };
 
+/// Throws InvalidInput when there is at least one fault.
+void require_none(std::vector<Fault> faults);
+/// The same with the faults of several things together.
+template <class... Lists>
+void require_none(std::vector<Fault> faults, const std::vector<Fault>& more,
+                  const Lists&... others) {
+  faults.insert(faults.end(), more.begin(), more.end());
+  require_none(std::move(faults), others...);
+}
+
 }  // namespace gearlash

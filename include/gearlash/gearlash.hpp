@@ -24,4 +24,5 @@
 #include "gearlash/signal.hpp"
 #include "gearlash/tolerance.hpp"
 #include "gearlash/tune.hpp"
+#include "gearlash/units.hpp"
 #include "gearlash/version.hpp"

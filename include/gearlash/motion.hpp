@@ -150,6 +150,17 @@ class Motion {
 [[nodiscard]] Motion simulate(const Drive& drive, const Span& span,
                               Progress& progress = no_progress());
 
+/// s, the period of the undamped loop in closed form, else the slowest swing of the linear loop.
+/// Precondition: a sound drive.
+[[nodiscard]] double period_of_loop(const Drive& drive);
+
+/// rad, a step of the reference that shows hunting: five backlashes, at least twenty encoder
+/// counts, and three times the error that friction holds. Precondition: as before.
+[[nodiscard]] double usual_step(const Drive& drive);
+/// s, a time that shows it: ten periods of the loop, and twice the settling time of the signals.
+/// Precondition: as before.
+[[nodiscard]] double usual_time(const Drive& drive);
+
 /// The enumerator's name: "reached_end", "event_limit", …
 [[nodiscard]] const char* name_of(MotionStop stop);
 

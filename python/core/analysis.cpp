@@ -13,7 +13,6 @@
 #include "gearlash/input.hpp"
 #include "gearlash/output.hpp"
 #include "gearlash/sensitivity.hpp"
-#include "input/drive_file.hpp"
 #include "module.hpp"
 #include "output/comparison_report.hpp"
 #include "output/describe_report.hpp"

@@ -9,7 +9,6 @@
 #include "gearlash/input.hpp"
 #include "gearlash/tolerance.hpp"
 #include "gearlash/tune.hpp"
-#include "input/axis_text.hpp"
 #include "module.hpp"
 #include "output/records.hpp"
 #include "question/series/tolerance_study.hpp"

@@ -1,11 +1,11 @@
 // Drives with their tolerances: read, changed, written.
 #include <pybind11/stl.h>
 
-#include "base/fault.hpp"
 #include "base/lists.hpp"
+#include "gearlash/fault.hpp"
+#include "gearlash/input.hpp"
 #include "gearlash/output.hpp"
 #include "gearlash/parameter.hpp"
-#include "input/drive_file.hpp"
 #include "model/parameters.hpp"
 #include "module.hpp"
 #include "output/drive_text.hpp"

@@ -2,13 +2,13 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
-#include "base/fault.hpp"
 #include "base/lists.hpp"
 #include "base/overloaded.hpp"
 #include "define.hpp"
+#include "gearlash/fault.hpp"
 #include "gearlash/grid.hpp"
+#include "gearlash/input.hpp"
 #include "gearlash/version.hpp"
-#include "input/axis_text.hpp"
 #include "module.hpp"
 #include "output/grid_description.hpp"
 #include "output/records.hpp"

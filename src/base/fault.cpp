@@ -1,4 +1,4 @@
-#include "base/fault.hpp"
+#include "gearlash/fault.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/fault.hpp"
+#include "gearlash/fault.hpp"
 #include "gearlash/hybrid.hpp"
 #include "hybrid/mode_source.hpp"
 

@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include "base/extent.hpp"
-#include "base/fault.hpp"
 #include "base/lists.hpp"
+#include "gearlash/fault.hpp"
 #include "gearlash/hybrid.hpp"
 #include "hybrid/periodic_orbit.hpp"
 #include "hybrid/turns.hpp"

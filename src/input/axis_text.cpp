@@ -1,16 +1,15 @@
-#include "input/axis_text.hpp"
-
 #include <algorithm>
 #include <charconv>
 
 #include "base/lists.hpp"
 #include "base/range_check.hpp"
+#include "gearlash/input.hpp"
 #include "gearlash/parameter.hpp"
 #include "gearlash/tune.hpp"
+#include "gearlash/units.hpp"
 #include "input/foreign_words.hpp"
 #include "input/parameter_text.hpp"
 #include "input/section_reader.hpp"
-#include "input/units.hpp"
 #include "model/parameter_values.hpp"
 #include "model/proportional_servo.hpp"
 #include "question/axis.hpp"

@@ -1,5 +1,3 @@
-#include "input/drive_file.hpp"
-
 #include <limits>
 #include <utility>
 
@@ -8,7 +6,6 @@
 #include "input/drive_reader.hpp"
 #include "input/foreign_words.hpp"
 #include "input/parameter_text.hpp"
-#include "input/text_file.hpp"
 #include "input/toml_document.hpp"
 #include "input/utf8.hpp"
 #include "model/parameter_values.hpp"
@@ -156,6 +153,18 @@ WrittenDrive parse_drive_by_form(std::string_view toml, std::string_view source_
       contents_of(document, settings(is_normal_form), folder, BareNumbers::refused);
   written.text = toml;
   return written;
+}
+
+std::vector<NamedTable> named_tables(Drive& drive) {
+  std::vector<NamedTable> tables;
+  for (const Parameter& parameter : all_parameters_of_drives()) {
+    const Slot slot = parameter.slot(drive);
+    if (auto* const* name = std::get_if<std::string*>(&slot);
+        name != nullptr && !(*name)->empty()) {
+      tables.push_back({parameter.path, *name});
+    }
+  }
+  return tables;
 }
 
 Setting read_setting(const std::string& text) {

@@ -4,13 +4,13 @@
 #include <map>
 
 #include "base/lists.hpp"
+#include "gearlash/units.hpp"
 #include "input/foreign_words.hpp"
 #include "input/number_reader.hpp"
 #include "input/parameter_text.hpp"
 #include "input/robot_form.hpp"
 #include "input/section_kinds.hpp"
 #include "input/signal_reader.hpp"
-#include "input/units.hpp"
 #include "model/normalized_servo.hpp"
 #include "model/parameters.hpp"
 #include "model/reduced_drive.hpp"

@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "input/drive_file.hpp"
+#include "gearlash/input.hpp"
 #include "input/section_reader.hpp"
 #include "input/toml_document.hpp"
 

@@ -1,10 +1,10 @@
 #include "input/foreign_words.hpp"
 
 #include "base/lists.hpp"
+#include "gearlash/units.hpp"
 #include "input/parameter_text.hpp"
 #include "input/robot_form.hpp"
 #include "input/section_reader.hpp"
-#include "input/units.hpp"
 
 namespace gearlash {
 namespace {

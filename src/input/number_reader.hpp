@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gearlash/units.hpp"
 #include "input/section_reader.hpp"
 #include "model/parameters.hpp"
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "input/units.hpp"
+#include "gearlash/units.hpp"
 #include "model/parameters.hpp"
 
 namespace gearlash {

@@ -9,11 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "base/fault.hpp"
-#include "gearlash/tolerance.hpp"
+#include "gearlash/input.hpp"
+#include "gearlash/units.hpp"
 #include "input/toleranced_value.hpp"
 #include "input/toml_document.hpp"
-#include "input/units.hpp"
 
 namespace gearlash {
 
@@ -146,20 +145,5 @@ class SectionReader {
   const toml::table* table_ = nullptr;
   std::vector<std::string> known_;
 };
-
-/// Whether two words are the same in either case: "Kp" and "kp".
-bool is_same_word(std::string_view one, std::string_view other);
-
-/// The known name that is nearest to the written one, in either case; none if none is near.
-std::optional<std::string> nearest(const std::vector<std::string>& known, std::string_view written);
-
-/// " (did you mean b?)", or "" if no known name is near.
-std::string guess_of(const std::vector<std::string>& known, std::string_view written);
-
-/// "a, b or c".
-std::string alternatives(const std::vector<std::string>& names);
-
-/// "must be one of a, b, c (did you mean b?)".
-std::string one_of(const std::vector<std::string>& known, std::string_view written);
 
 }  // namespace gearlash

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "input/text_file.hpp"
-#include "input/units.hpp"
+#include "gearlash/input.hpp"
+#include "gearlash/units.hpp"
 #include "model/signal.hpp"
 
 namespace gearlash {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "gearlash/signal.hpp"
-#include "model/dimension.hpp"
+#include "gearlash/units.hpp"
 
 namespace gearlash {
 

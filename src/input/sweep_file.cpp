@@ -1,12 +1,8 @@
-#include "input/sweep_file.hpp"
-
 #include <set>
 
-#include "input/axis_text.hpp"
+#include "gearlash/input.hpp"
 #include "input/drive_reader.hpp"
 #include "input/section_reader.hpp"
-#include "input/target_text.hpp"
-#include "input/text_file.hpp"
 #include "input/toml_document.hpp"
 #include "question/family/evaluation.hpp"
 

@@ -1,5 +1,3 @@
-#include "input/target_text.hpp"
-
 #include <algorithm>
 #include <array>
 #include <numbers>
@@ -10,8 +8,8 @@
 
 #include "base/lists.hpp"
 #include "gearlash/input.hpp"
+#include "gearlash/units.hpp"
 #include "input/section_reader.hpp"
-#include "input/units.hpp"
 #include "model/quantities.hpp"
 #include "model/reduced_drive.hpp"
 

@@ -1,11 +1,10 @@
-#include "input/text_file.hpp"
-
 #include <cerrno>
 #include <fstream>
 #include <iostream>
 #include <system_error>
 
-#include "input/units.hpp"
+#include "gearlash/input.hpp"
+#include "gearlash/units.hpp"
 
 namespace gearlash {
 namespace {

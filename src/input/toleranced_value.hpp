@@ -8,7 +8,7 @@
 #include <string>
 
 #include "gearlash/tolerance.hpp"
-#include "input/units.hpp"
+#include "gearlash/units.hpp"
 
 namespace gearlash {
 

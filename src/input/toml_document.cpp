@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "base/lists.hpp"
-#include "input/units.hpp"
+#include "gearlash/units.hpp"
 #include "input/utf8.hpp"
 
 namespace gearlash {

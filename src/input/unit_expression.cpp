@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/decimal.hpp"
-#include "input/units.hpp"
+#include "gearlash/units.hpp"
 #include "input/utf8.hpp"
 
 namespace gearlash {

@@ -1,4 +1,4 @@
-#include "input/units.hpp"
+#include "gearlash/units.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -5,10 +5,10 @@
 #include <tuple>
 #include <vector>
 
-#include "base/fault.hpp"
 #include "base/interval.hpp"
 #include "base/lists.hpp"
 #include "gearlash/controller.hpp"
+#include "gearlash/fault.hpp"
 
 namespace gearlash::drive {
 

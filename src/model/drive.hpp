@@ -8,9 +8,9 @@
 #include <variant>
 #include <vector>
 
-#include "base/fault.hpp"
 #include "base/number.hpp"
 #include "gearlash/drive.hpp"
+#include "gearlash/fault.hpp"
 #include "model/controller.hpp"
 #include "model/signal.hpp"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/fault.hpp"
+#include "gearlash/fault.hpp"
 
 namespace gearlash {
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/member_path.hpp"
+#include "gearlash/units.hpp"
 #include "model/parameters.hpp"
 
 namespace gearlash::parameter_rows {

@@ -13,7 +13,7 @@
 #include "base/range_check.hpp"
 #include "gearlash/drive.hpp"
 #include "gearlash/parameter.hpp"
-#include "model/dimension.hpp"
+#include "gearlash/units.hpp"
 
 namespace gearlash {
 

@@ -7,7 +7,7 @@
 
 #include "gearlash/answer.hpp"
 #include "gearlash/quantity.hpp"
-#include "model/dimension.hpp"
+#include "gearlash/units.hpp"
 
 namespace gearlash {
 

@@ -69,10 +69,6 @@ drive::ReducedDrive reduce_settled(const Drive& drive);
 /// J_M + J_L = 1 kg m². Any other drive is unchanged.
 Drive physical_form(const Drive& drive);
 
-/// Whether the drive is a normal form without a natural frequency: ω_n is then 1 rad/s, and reports
-/// for people give times in units of 1/ω_n.
-bool is_normalized(const Drive& drive);
-
 /// The drivetrain of a drive that is known to be a proportional servo, without checks:
 ///   J_M = (J + J_G) n²,  F_M = (f + E) n² + S d,  K = S g,  S = gain_scale(),
 /// E the winding's friction (K₁K₂/R, 0, K_N, 0), more by the torque per output times the feedback

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "base/fault.hpp"
+#include "gearlash/fault.hpp"
 #include "gearlash/signal.hpp"
 
 namespace gearlash::drive {

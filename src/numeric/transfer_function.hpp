@@ -4,8 +4,8 @@
 #include <complex>
 #include <vector>
 
-#include "base/fault.hpp"
 #include "gearlash/bounds.hpp"
+#include "gearlash/fault.hpp"
 
 namespace gearlash {
 

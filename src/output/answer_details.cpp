@@ -6,9 +6,9 @@
 #include <string>
 
 #include "base/lists.hpp"
+#include "gearlash/output.hpp"
 #include "model/gains.hpp"
 #include "output/answer_parts.hpp"
-#include "output/columns.hpp"
 
 namespace gearlash {
 namespace {
@@ -18,7 +18,7 @@ std::string percent(double part, double whole) {
 }
 
 TextRow amplitude_row(const AnswerReport& report, std::string name, double amplitude) {
-  const AnswerUnits units(report);
+  const DriveUnits units(report.drive, all_digits);
   const double backlash = backlash_of(report.drive, report.answer);
   return {std::move(name), units.swing(amplitude),
           backlash == 0.0 ? "" : units.number(amplitude / backlash) + " of the backlash"};
@@ -27,7 +27,7 @@ TextRow amplitude_row(const AnswerReport& report, std::string name, double ampli
 // ---- cycles, rest, irregular motion -------------------------------------------------------------
 
 /// Adds the proved range if the enclosure is too wide for the table's digits.
-void add_range(TextRows& rows, const AnswerUnits& units, const Bounds& range, double scale,
+void add_range(TextRows& rows, const DriveUnits& units, const Bounds& range, double scale,
                const std::string& unit) {
   constexpr double unseen = 1e-6;
   if (range.high - range.low <= unseen * range.high) return;
@@ -49,7 +49,7 @@ constexpr const char* multiplier_remarks[] = {
     "disturbances decay", "disturbances neither grow nor decay", "disturbances grow"};
 
 void add_contact(TextRows& rows, const Cycle& cycle, const Answer& answer,
-                 const AnswerUnits& units) {
+                 const DriveUnits& units) {
   if (answer.engine != Engine::general) {
     rows.push_back({"impacts", fmt::format("{} per period", cycle.events_per_period),
                     cycle.settles ? "faces stay together" : "faces bounce apart"});
@@ -64,7 +64,7 @@ void add_contact(TextRows& rows, const Cycle& cycle, const Answer& answer,
 }
 
 std::string cycle_text(const AnswerReport& report, const Cycle& cycle) {
-  const AnswerUnits units(report);
+  const DriveUnits units(report.drive, all_digits);
   const Answer& answer = report.answer;
   TextRows rows = {amplitude_row(report, "amplitude, load", cycle.amplitude)};
   const bool has_bounds = answer.bounds && answer.bounds->has_cycle;
@@ -78,11 +78,9 @@ std::string cycle_text(const AnswerReport& report, const Cycle& cycle) {
   }
   rows.push_back({"period", units.time(cycle.period)});
   if (has_bounds) {
-    add_range(rows, units, answer.bounds->period, 1.0, report.is_normalized ? "/ ω_n" : "s");
+    add_range(rows, units, answer.bounds->period, 1.0, units.is_normalized() ? "/ ω_n" : "s");
   }
-  rows.push_back({"frequency", report.is_normalized
-                                   ? units.number(2.0 * std::numbers::pi / cycle.period) + " ω_n"
-                                   : units.number(cycle.frequency()) + " Hz"});
+  rows.push_back({"frequency", units.frequency(cycle.period)});
   rows.push_back({"multiplier", units.number(cycle.multiplier),
                   multiplier_remarks[static_cast<std::size_t>(cycle.stability)]});
   add_contact(rows, cycle, answer, units);
@@ -100,7 +98,7 @@ std::string cycle_text(const AnswerReport& report, const Cycle& cycle) {
 std::string cycle_tables(const AnswerReport& report) {
   std::string text;
   TextRows unstable;
-  const AnswerUnits units(report);
+  const DriveUnits units(report.drive, all_digits);
   for (const Cycle& cycle : report.answer.cycles) {
     if (cycle.stability != Stability::unstable) {
       text += cycle_text(report, cycle);
@@ -116,7 +114,7 @@ std::string cycle_tables(const AnswerReport& report) {
 
 std::string irregular_text(const AnswerReport& report, const IrregularMotion& motion) {
   if (!motion.mean_period) return "";  // the headline or the meaning states its extent
-  const AnswerUnits units(report);
+  const DriveUnits units(report.drive, all_digits);
   const auto spread = [](double mean, double deviation) {
     return fmt::format("spread {:.2g} %", 100.0 * deviation / mean);
   };
@@ -146,7 +144,7 @@ std::string irregular_text(const AnswerReport& report, const IrregularMotion& mo
 }
 
 std::string rest_text(const AnswerReport& report) {
-  const AnswerUnits units(report);
+  const DriveUnits units(report.drive, all_digits);
   const Rest& rest = *report.answer.rest;
   TextRows rows = {
       {"load, from the reference", units.angles(rest.load)},
@@ -181,10 +179,10 @@ std::string rest_text(const AnswerReport& report) {
 
 /// The drive as a servo of 1960.
 std::string normal_form_table(const AnswerReport& report) {
-  const AnswerUnits units(report);
+  const DriveUnits units(report.drive, all_digits);
   const NormalFormNumbers& form = *report.answer.normal_form;
   TextRows rows;
-  if (!report.is_normalized) {
+  if (!units.is_normalized()) {
     rows.push_back({"natural frequency, ω_n", units.number(form.natural_frequency) + " rad/s",
                     units.number(form.natural_frequency / (2.0 * std::numbers::pi)) + " Hz"});
     if (form.stiffness) {
@@ -206,7 +204,7 @@ std::string normal_form_table(const AnswerReport& report) {
 
 /// The gains of a torque-controlled drive at both shafts.
 std::string gains_table(const AnswerReport& report) {
-  const AnswerUnits units(report);
+  const DriveUnits units(report.drive, all_digits);
   const TextRows rows = of_each(placed_gains(report.drive), [&](const PlacedGain& gain) -> TextRow {
     return {std::string(gain.path.substr(gain.path.find('.') + 1)),
             fmt::format("{} {} at the joint", units.number(gain.at_joint), gain.unit),

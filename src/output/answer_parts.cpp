@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/lists.hpp"
+#include "gearlash/output.hpp"
 #include "model/reduced_drive.hpp"
 #include "model/signal.hpp"
-#include "output/columns.hpp"
 
 namespace gearlash {
 
@@ -45,7 +45,7 @@ std::string persistence(const Answer& answer) {
 std::string other_motion(const AnswerReport& report) {
   if (report.answer.irregular.empty()) return "";
   return "Other starts end in a motion that was not seen to repeat, up to " +
-         AnswerUnits(report, digits).swing(report.answer.irregular.front().amplitude) + ". ";
+         DriveUnits(report.drive, digits).swing(report.answer.irregular.front().amplitude) + ". ";
 }
 
 std::string meaning_when_hunting(const AnswerReport& report) {
@@ -158,7 +158,7 @@ std::string ends_text(const Answer& answer) {
 }
 
 std::string search_text(const AnswerReport& report) {
-  const AnswerUnits units(report);
+  const DriveUnits units(report.drive, all_digits);
   const SearchRecord& search = *report.answer.search;
   const double reference =
       drive::value_at(drive::settled(report.drive.reference.value_or(0.0)), 0.0);
@@ -209,7 +209,7 @@ namespace {
 
 std::string torque_text(double torque, const AnswerReport& report) {
   return fmt::format("±{} {}", significant(rounded_up(torque, usual_digits), usual_digits),
-                     report.is_normalized ? "K rad" : "N m at the load");
+                     is_normalized(report.drive) ? "K rad" : "N m at the load");
 }
 
 std::string remark_on_limit(const Ceiling& ceiling) {
@@ -228,11 +228,12 @@ bool has_ending_signal(const Drive& drive) {
 std::string safe_starts_text(const AnswerReport& report) {
   const std::optional<SafeStarts>& starts = report.answer.ceiling->safe_starts;
   if (!starts) return "";
+  const DriveUnits units(report.drive);
   return further_paragraph(fmt::format(
       "{}tarts displaced by up to ±{} from the motion with the gap closed never meet the torque "
       "limit, nor do starts on it whose speed differs by up to ±{}/s (proved).",
       has_ending_signal(report.drive) ? "Once the signals have ended, s" : "S",
-      lower_bound_text(starts->position, report), lower_bound_text(starts->speed, report)));
+      units.at_least(starts->position), units.at_least(starts->speed)));
 }
 
 /// The bound of the mesh torque of a drive whose swing has none.
@@ -246,12 +247,6 @@ std::string mesh_torque_alone(const AnswerReport& report) {
 }
 
 }  // namespace
-
-std::string lower_bound_text(double radians, const AnswerReport& report) {
-  const AngleUnit& unit = report.drive.angle_unit;
-  return significant(rounded_down(unit.from_radians(radians), usual_digits), usual_digits) + " " +
-         unit.name;
-}
 
 std::string below_limit_text(const Ceiling& ceiling) {
   return ceiling.is_below_limit ? ", if it stays off its limits" : "";
@@ -269,9 +264,7 @@ std::string ceiling_text(const AnswerReport& report) {
   if (!ceiling.load) {
     return further_paragraph("No ceiling: " + ceiling.reason + ".") + mesh_torque_alone(report);
   }
-  const auto angle = [&](double value) {
-    return swing_bound_text(value, report.drive.angle_unit, usual_digits);
-  };
+  const auto angle = [&](double value) { return DriveUnits(report.drive).swing_at_most(value); };
   TextRows rows = {{"load", angle(*ceiling.load)}};
   if (ceiling.terms.size() > 1) {
     for (const CeilingTerm& term : ceiling.terms) {
@@ -328,7 +321,7 @@ std::vector<MotionBesideMeasured> AnswerReport::beside_measured() const {
 
 std::string measured_text(const AnswerReport& report) {
   if (!report.measured) return "";
-  const AnswerUnits units(report, usual_digits);
+  const DriveUnits units(report.drive);
   const auto motion = [&](double amplitude, double frequency) {
     return units.swing(amplitude) + " at " + units.number(frequency) + " Hz";
   };

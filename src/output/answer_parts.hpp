@@ -8,29 +8,8 @@
 
 namespace gearlash {
 
-/// Numbers with units: angles in the author's; times and what follows from them in units of 1/ω_n
-/// without a natural frequency.
-struct AnswerUnits {
-  explicit AnswerUnits(const AnswerReport& report, int with_digits = 6)
-      : angle_unit(report.drive.angle_unit),
-        is_normalized(report.is_normalized),
-        digits(with_digits) {}
-
-  std::string number(double value) const { return significant(value, digits); }
-  std::string angle(double radians) const { return angle_text(radians, angle_unit, digits); }
-  /// "0.1 … 0.2 rad", or one number where the ends hardly differ.
-  std::string angles(const Bounds& range) const;
-  /// "±0.1 rad".
-  std::string swing(double amplitude) const { return swing_text(amplitude, angle_unit, digits); }
-  std::string time(double seconds) const { return time_text(seconds, is_normalized, digits); }
-  std::string in(double value, const char* normalized, const char* otherwise) const {
-    return number(value) + (is_normalized ? normalized : otherwise);
-  }
-
-  AngleUnit angle_unit;
-  bool is_normalized;
-  int digits;
-};
+/// Of tables of details.
+inline constexpr int all_digits = 6;
 
 /// rad; that of the normal form of a drive that has one.
 double backlash_of(const Drive& drive, const Answer& answer);
@@ -53,8 +32,6 @@ std::string meaning_text(const AnswerReport& report);
 /// A table of the ceiling with its terms, or why there is none. Empty if it was not computed.
 std::string ceiling_text(const AnswerReport& report);
 
-/// Of angles, rounded down: "1.2 arcmin".
-std::string lower_bound_text(double radians, const AnswerReport& report);
 /// ", if its torque stays below the limit", where a ceiling needs that.
 std::string below_limit_text(const Ceiling& ceiling);
 

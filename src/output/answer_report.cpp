@@ -16,12 +16,9 @@
 #include "model/reduced_drive.hpp"
 #include "output/answer_parts.hpp"
 #include "output/change_report.hpp"
-#include "output/columns.hpp"
 
 namespace gearlash {
 namespace {
-
-AnswerUnits units_of(const AnswerReport& report) { return AnswerUnits(report, usual_digits); }
 
 std::string joined(const std::vector<std::string>& parts) {
   return listed(parts, std::identity(), ", ");
@@ -42,7 +39,7 @@ std::string enumerated(const std::vector<std::string>& words) {
 
 // ---- the specification --------------------------------------------------------------------------
 
-std::string error_words(const std::optional<double>& error, const AnswerUnits& units) {
+std::string error_words(const std::optional<double>& error, const DriveUnits& units) {
   if (!error) return "not known";
   return std::isinf(*error) ? "beyond all bounds" : units.angle(*error);
 }
@@ -58,7 +55,7 @@ std::string with_article(Cause cause) {
 std::string specification_text(const AnswerReport& report) {
   const Answer& answer = report.answer;
   if (!answer.specification) return "";
-  const AnswerUnits units = units_of(report);
+  const DriveUnits units(report.drive);
   const SpecificationAnswer& judged = *answer.specification;
   std::string text = fmt::format("Specification, an error of {}: {}", units.angle(judged.permitted),
                                  name_of(judged.small));
@@ -76,7 +73,7 @@ std::string specification_text(const AnswerReport& report) {
   text += ".";
   const std::optional<double> widest = report.widest_backlash();
   if (widest) {
-    text += " Every backlash up to " + lower_bound_text(*widest, report) +
+    text += " Every backlash up to " + units.at_least(*widest) +
             " provably keeps the load within it of the motion without a gap.";
   }
   return further_paragraph(text);
@@ -84,23 +81,22 @@ std::string specification_text(const AnswerReport& report) {
 
 // ---- motions ------------------------------------------------------------------------------------
 
-std::string cycle_row_text(const Cycle& cycle, const AnswerUnits& units) {
-  return units.swing(cycle.amplitude) + (units.is_normalized ? ", period " : " at ") +
-         (units.is_normalized ? units.time(cycle.period) : units.number(cycle.frequency()) + " Hz");
+std::string cycle_row_text(const Cycle& cycle, const DriveUnits& units) {
+  return units.swing(cycle.amplitude) + units.pace(cycle.period);
 }
 
 /// The cycle that is seen in practice.
 std::string motion_table(const AnswerReport& report) {
   const Cycle* cycle = first_cycle(report.answer);
   if (cycle == nullptr || is_of_motor_alone(*cycle)) return "";  // the headline has it
-  const AnswerUnits units = units_of(report);
+  const DriveUnits units(report.drive);
   const double backlash = backlash_of(report.drive, report.answer);
   TextRows rows = {
       {"load", units.swing(cycle->amplitude),
        backlash > 0.0 ? units.number(cycle->amplitude / backlash) + " of the backlash" : ""},
       {"motor", units.swing(cycle->motor_amplitude)},
       {"period", units.time(cycle->period),
-       units.is_normalized ? "" : units.number(cycle->frequency()) + " Hz"}};
+       units.is_normalized() ? "" : units.number(cycle->frequency()) + " Hz"}};
   constexpr double clearly = 1.01;
   if (cycle->error > clearly * cycle->amplitude)
     rows.push_back({"largest error", units.angle(cycle->error)});
@@ -119,7 +115,7 @@ std::string motion_table(const AnswerReport& report) {
 std::string balance_text(const AnswerReport& report) {
   const Cycle* cycle = first_cycle(report.answer);
   if (cycle == nullptr || !cycle->energy || is_of_motor_alone(*cycle)) return "";
-  const AnswerUnits units = units_of(report);
+  const DriveUnits units(report.drive);
   const EnergyBalance& energy = *cycle->energy;
   TextRows rows;
   const auto add = [&](const char* name, double part, double whole) {
@@ -141,7 +137,7 @@ std::string balance_text(const AnswerReport& report) {
 /// The other motions that last: stable ones in a line each, those of few encoder steps together.
 std::string others_text(const AnswerReport& report) {
   const Answer& answer = report.answer;
-  const AnswerUnits units = units_of(report);
+  const DriveUnits units(report.drive);
   TextRows rows;
   std::size_t small = 0;
   std::size_t unstable = 0;
@@ -191,7 +187,7 @@ std::string others_text(const AnswerReport& report) {
 std::string causes_text(const AnswerReport& report) {
   const Answer& answer = report.answer;
   if (answer.without.empty() || answer.engine != Engine::general) return "";
-  const AnswerUnits units = units_of(report);
+  const DriveUnits units(report.drive);
   TextRows rows;
   std::vector<std::string> needed;
   for (const Without& one : answer.without) {
@@ -217,11 +213,11 @@ std::string causes_text(const AnswerReport& report) {
 std::string loop_text(const AnswerReport& report) {
   const Answer& answer = report.answer;
   if (!answer.loop) return "";
-  const AnswerUnits units = units_of(report);
+  const DriveUnits units(report.drive);
   const LinearLoop& loop = *answer.loop;
   const auto frequency = [&](double hertz) {
-    return report.is_normalized ? units.number(2.0 * std::numbers::pi * hertz) + " ω_n"
-                                : units.number(hertz) + " Hz";
+    return is_normalized(report.drive) ? units.number(2.0 * std::numbers::pi * hertz) + " ω_n"
+                                       : units.number(hertz) + " Hz";
   };
   constexpr double degrees = 180.0 / std::numbers::pi;
   const std::string text =
@@ -241,7 +237,7 @@ std::string loop_text(const AnswerReport& report) {
 std::string step_text(const AnswerReport& report) {
   const Answer& answer = report.answer;
   if (!answer.step || !answer.rest) return "";
-  const AnswerUnits units = units_of(report);
+  const DriveUnits units(report.drive);
   const StepResponse& step = *answer.step;
   const std::string band = units.swing(step.band);
   const bool is_within_gap = std::abs(step.step) < backlash_of(report.drive, report.answer);
@@ -265,7 +261,7 @@ std::string step_text(const AnswerReport& report) {
 
 std::string short_rest_text(const AnswerReport& report) {
   if (!report.answer.rest) return "";
-  const AnswerUnits units = units_of(report);
+  const DriveUnits units(report.drive);
   const Rest& rest = *report.answer.rest;
   TextRows rows = {{"error, reference − load", units.angles(rest.error),
                     rest.certainty == Certainty::computed ? "all equilibria" : "where starts led"}};
@@ -291,9 +287,7 @@ std::string short_ceiling_text(const AnswerReport& report) {
   if (!report.answer.ceiling) return "";
   const Ceiling& ceiling = *report.answer.ceiling;
   if (!ceiling.load) return further_paragraph("No proved ceiling: " + ceiling.reason + ".");
-  const auto angle = [&](double value) {
-    return swing_bound_text(value, report.drive.angle_unit, usual_digits);
-  };
+  const auto angle = [&](double value) { return DriveUnits(report.drive).swing_at_most(value); };
   std::string text = "Ceiling: in the end no motion is farther than " + angle(*ceiling.load) +
                      " from that without a gap" + below_limit_text(ceiling) + " (proved)";
   if (ceiling.terms.size() > 1) {
@@ -371,24 +365,13 @@ std::string starts_text(std::size_t count) {
   return fmt::format("{} start{}", count, count == 1 ? "" : "s");
 }
 
-std::string AnswerUnits::angles(const Bounds& range) const {
-  const double low = angle_unit.from_radians(range.low);
-  const double high = angle_unit.from_radians(range.high);
-  constexpr double unseen = 1e-9;  // relative to the larger; closer ends print as one number
-  if (high - low <= unseen * std::max(std::abs(low), std::abs(high))) return angle(range.low);
-  return fmt::format("{} … {} {}", number(low), number(high), angle_unit.name);
-}
-
 bool is_of_motor_alone(const Cycle& cycle) {
   constexpr double unseen = 1e-9;  // of the motor amplitude; rounding moves the load by less
   return cycle.amplitude <= unseen * cycle.motor_amplitude;
 }
 
 AnswerReport report_of(const Drive& drive, const Answer& answer, const Provenance& provenance) {
-  return {.drive = drive,
-          .answer = answer,
-          .is_normalized = is_normalized(drive),
-          .provenance = provenance};
+  return {.drive = drive, .answer = answer, .provenance = provenance};
 }
 
 std::vector<ParameterFacts> AnswerReport::parameters() const {

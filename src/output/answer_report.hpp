@@ -9,10 +9,10 @@
 #include "gearlash/answer.hpp"
 #include "gearlash/design.hpp"
 #include "gearlash/drive.hpp"
+#include "gearlash/output.hpp"
 #include "gearlash/sensitivity.hpp"
-#include "input/units.hpp"
+#include "gearlash/units.hpp"
 #include "output/parameter_text.hpp"
-#include "output/report_units.hpp"
 
 namespace gearlash {
 
@@ -34,10 +34,8 @@ struct MotionBesideMeasured {
 
 /// "gearlash/limit-cycle/3": what a drive ends in.
 struct AnswerReport {
-  Drive drive{};    ///< its parameters
-  Answer answer{};  ///< what it ends in
-  /// The normal form without a natural frequency: text has times in units of 1/ω_n.
-  bool is_normalized = false;
+  Drive drive{};                              ///< its parameters
+  Answer answer{};                            ///< what it ends in
   Provenance provenance{};                    ///< how it was made
   std::optional<HuntingMargin> margin{};      ///< on request, as is `sensitivity`
   std::optional<Jacobian> sensitivity{};      ///< derivatives, on request

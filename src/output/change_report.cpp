@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/lists.hpp"
-#include "output/columns.hpp"
+#include "gearlash/output.hpp"
 #include "output/parameter_text.hpp"
 
 namespace gearlash {

@@ -8,7 +8,7 @@
 
 #include "gearlash/design.hpp"
 #include "gearlash/sensitivity.hpp"
-#include "output/report_units.hpp"
+#include "gearlash/units.hpp"
 
 namespace gearlash {
 

@@ -1,10 +1,9 @@
-#include "output/columns.hpp"
-
 #include <algorithm>
 #include <sstream>
 #include <utility>
 
 #include "base/lists.hpp"
+#include "gearlash/output.hpp"
 
 namespace gearlash {
 

@@ -5,10 +5,10 @@
 #include <numbers>
 
 #include "base/lists.hpp"
+#include "gearlash/output.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/answer_parts.hpp"
 #include "output/answer_report.hpp"
-#include "output/columns.hpp"
 #include "output/parameter_text.hpp"
 
 namespace gearlash {
@@ -126,7 +126,7 @@ std::string step_text(const ComparisonReport& report) {
     return one.answer->step &&
            std::abs(one.answer->step->step) < backlash_of(one.drive, *one.answer);
   });
-  return "All make " + step_text(*stepped->answer->step, report.drives.front().drive.angle_unit) +
+  return "All make " + step_text(*stepped->answer->step, report.drives.front().drive) +
          (within.empty() ? ""
                          : "; it is less than the gap of " + within + ": --step gives another") +
          (names.empty() ? "." : "; it could not be followed to its end: " + names + ".");
@@ -143,27 +143,6 @@ std::string sensor_text(const ComparisonReport& report) {
   }
   if (!differ || !has_motor) return "";
   return "With the sensor on the motor the loop does not see where the load is in the gap. ";
-}
-
-/// Blocks of as many columns as fit, each with the first one.
-std::string in_blocks(const TextRows& rows) {
-  constexpr std::size_t widest = 92;
-  const auto width = [&](std::size_t column) {
-    std::size_t most = 0;
-    for (const TextRow& row : rows) most = std::max(most, width_in_columns(row[column]));
-    return most + 2;
-  };
-  std::string text;
-  for (std::size_t first = 1; first < rows.front().size();) {
-    TextRows block = of_each(rows, [](const TextRow& row) { return TextRow{row.front()}; });
-    std::size_t taken = width(0);
-    do {
-      for (std::size_t i = 0; i < rows.size(); ++i) block[i].push_back(rows[i][first]);
-      taken += width(first++);
-    } while (first < rows.front().size() && taken + width(first) <= widest);
-    text += "\n" + table_text(block);
-  }
-  return text;
 }
 
 }  // namespace
@@ -208,7 +187,7 @@ std::string comparison_headlines(const ComparisonReport& report) {
 std::string comparison_text(const ComparisonReport& report) {
   const std::string remarks =
       unstable_text(report) + rescaled_text(report) + sensor_text(report) + step_text(report);
-  return comparison_headlines(report) + in_blocks(rows_of(report)) +
+  return comparison_headlines(report) + "\n" + fitted(table_text(rows_of(report)), usual_columns) +
          (remarks.empty() ? "" : "\n" + wrapped(remarks));
 }
 

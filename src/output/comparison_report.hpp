@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "gearlash/comparison.hpp"
-#include "output/report_units.hpp"
+#include "gearlash/output.hpp"
+#include "gearlash/units.hpp"
 #include "question/axis.hpp"
 
 namespace gearlash {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "output/output_file.hpp"
+#include "gearlash/output.hpp"
 #include "output/record.hpp"
 
 namespace gearlash {

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "base/lists.hpp"
+#include "gearlash/output.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/answer_report.hpp"
-#include "output/columns.hpp"
 
 namespace gearlash {
 namespace {
@@ -29,10 +29,9 @@ std::string with_capital(std::string text) {
 
 TextRow motion_row(const std::string& name, const ExactMotion& motion,
                    const DescribeReport& report) {
-  return {name, swing_text(motion.amplitude, report.drive.angle_unit, usual_digits),
-          "±" + angle_text(motion.motor_amplitude, report.drive.angle_unit, usual_digits),
-          time_text(motion.period, report.is_normalized, usual_digits),
-          frequency_text(motion.period, report.is_normalized, usual_digits)};
+  const DriveUnits units(report.drive);
+  return {name, units.swing(motion.amplitude), units.swing(motion.motor_amplitude),
+          units.time(motion.period), units.frequency(motion.period)};
 }
 
 TextRow error_row(const PredictionError& error) {
@@ -151,14 +150,11 @@ DescribeReport describe_report_of(const Drive& drive, const Answer& answer,
           .drive = drive,
           .answer = answer,
           .backlash = reduced.backlash,
-          .is_normalized = is_normalized(drive),
           .provenance = provenance};
 }
 
 std::string describe_text(const DescribeReport& report) {
-  AnswerReport exact = report_of(report.drive, report.answer, {});
-  exact.is_normalized = report.is_normalized;
-  std::string text = headline(exact) + "\n";
+  std::string text = headline(report.drive, report.answer) + "\n";
   for (const DescribingAnalysis& analysis : report.analyses) {
     text += "\n" + analysis_text(analysis, report);
   }

@@ -6,7 +6,8 @@
 
 #include "gearlash/answer.hpp"
 #include "gearlash/drive.hpp"
-#include "output/report_units.hpp"
+#include "gearlash/output.hpp"
+#include "gearlash/units.hpp"
 #include "question/loop/describing/describing.hpp"
 
 namespace gearlash {
@@ -15,10 +16,9 @@ namespace gearlash {
 struct DescribeReport {
   std::vector<drive::DescribingAnalysis> analyses{};  ///< one for each nonlinearity
   Drive drive{};                                      ///< its parameters
-  Answer answer{};             ///< exact; not predicted if a sine drives the drive
-  double backlash = 0.0;       ///< rad; predictions too small beside it are left out
-  bool is_normalized = false;  ///< text has times in units of 1/ω_n
-  Provenance provenance{};     ///< how it was made
+  Answer answer{};          ///< exact; not predicted if a sine drives the drive
+  double backlash = 0.0;    ///< rad; predictions too small beside it are left out
+  Provenance provenance{};  ///< how it was made
 };
 
 /// The describing functions of the drive beside its exact answer.

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "base/lists.hpp"
+#include "gearlash/output.hpp"
 #include "model/reduced_drive.hpp"
-#include "output/columns.hpp"
 #include "question/change/proved_values.hpp"
 #include "question/series/toleranced_drive.hpp"
 
@@ -43,7 +43,7 @@ TextRow costs_text(const DesignReport& report, const DriveWithValue& one) {
   const auto time = [](const std::optional<double>& seconds) {
     return seconds ? significant(*seconds, few_digits) + " s" : "";
   };
-  return {error ? angle_text(*error, report.drive.angle_unit, few_digits) : "",
+  return {error ? DriveUnits(report.drive, few_digits).angle(*error) : "",
           time(response.rise_time),
           response.overshoot ? fmt::format("{:.1f} %", 100.0 * *response.overshoot) : "",
           time(response.settling_time),
@@ -98,7 +98,7 @@ std::string table_of_results(const DesignReport& report) {
           ? "ω_n, ζ and K show its cost"
           : "its result at the value nearest to the present one,\n" +
                 step_text(report.design.present.answer.step.value_or(StepResponse{}),
-                          report.drive.angle_unit) +
+                          report.drive) +
                 ", and the linear loop without the gap";
   return "One change by itself, other parameters fixed; " + costs + "\n" + table_text(rows) + "\n";
 }

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "gearlash/design.hpp"
+#include "gearlash/output.hpp"
+#include "gearlash/units.hpp"
 #include "output/parameter_text.hpp"
-#include "output/report_units.hpp"
 #include "question/change/design.hpp"
 #include "question/change/target.hpp"
 

@@ -8,11 +8,11 @@
 #include "base/lists.hpp"
 #include "base/overloaded.hpp"
 #include "base/range_check.hpp"
+#include "gearlash/output.hpp"
 #include "input/utf8.hpp"
 #include "model/parameters.hpp"
 #include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
-#include "output/columns.hpp"
 #include "output/json_writer.hpp"
 #include "question/drive_notes.hpp"
 

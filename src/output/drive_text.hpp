@@ -8,11 +8,12 @@
 
 #include "gearlash/answer.hpp"
 #include "gearlash/drive.hpp"
+#include "gearlash/output.hpp"
 #include "gearlash/tolerance.hpp"
+#include "gearlash/units.hpp"
 #include "general/assemble/time_scale.hpp"
 #include "model/firmware.hpp"
 #include "model/gains.hpp"
-#include "output/report_units.hpp"
 
 namespace gearlash {
 

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "gearlash/grid.hpp"
+#include "gearlash/output.hpp"
+#include "gearlash/units.hpp"
 #include "output/netcdf_file.hpp"
-#include "output/report_units.hpp"
 #include "question/map/map_regions.hpp"
 
 namespace gearlash {

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "base/lists.hpp"
+#include "base/progress_part.hpp"
+#include "question/map/hunting_boundary.hpp"
 
 namespace gearlash {
 namespace {
@@ -76,6 +78,27 @@ void GridNetcdf::write_target(std::span<const PlaceKind> kinds) {
 
 std::size_t netcdf_bytes(const GridContents& contents) {
   return contents.grid.size() * (1 + sizeof(double) * contents.quantities.size());
+}
+
+RowCount write_grid_netcdf(int descriptor, const std::string& shown_name,
+                           const GridContents& contents, bool has_boundary, Progress& progress,
+                           const Stopwatch& seconds) {
+  constexpr std::size_t points_at_a_time = std::size_t{1} << 15U;  // 3 MB, which caches hold
+  GridNetcdf file = GridNetcdf::create(descriptor, shown_name, contents);
+  std::vector<double> growth_at_rest;
+  if (has_boundary) growth_at_rest.reserve(contents.grid.size());
+  const RowCount count = evaluate_in_pieces(
+      contents.grid, contents.quantities, 0, points_at_a_time,
+      [&](const GridPiece& piece) {
+        file.write(piece);
+        if (has_boundary) add_all(growth_at_rest, piece.table[Quantity::growth_at_rest]);
+      },
+      progress, seconds);
+  if (has_boundary && !count.stopped) {
+    ProgressPart at_end(progress, 1.0, 1.0);
+    file.write_boundary(hunting_boundary(contents.grid, growth_at_rest, at_end));
+  }
+  return count;
 }
 
 }  // namespace gearlash

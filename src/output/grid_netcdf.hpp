@@ -52,6 +52,12 @@ class GridNetcdf {
   GridExtras extras_{};
 };
 
+/// Evaluates the grid into such a file, each block written while the next one is computed; with the
+/// boundary of a map if it is asked for. `progress` and `seconds` as in evaluate_in_pieces().
+RowCount write_grid_netcdf(int descriptor, const std::string& shown_name,
+                           const GridContents& contents, bool has_boundary, Progress& progress,
+                           const Stopwatch& seconds);
+
 /// The number of bytes of the values in such a file.
 std::size_t netcdf_bytes(const GridContents& contents);
 

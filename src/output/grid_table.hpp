@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "gearlash/output.hpp"
+#include "gearlash/units.hpp"
 #include "output/json_writer.hpp"
-#include "output/output_file.hpp"
-#include "output/report_units.hpp"
 #include "question/map/map_regions.hpp"
 
 namespace gearlash {

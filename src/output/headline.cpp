@@ -18,15 +18,8 @@ namespace {
 
 constexpr int headline_digits = 3;
 
-AnswerUnits headline_units(const AnswerReport& report) {
-  return AnswerUnits(report, headline_digits);
-}
-
-std::string pace(const AnswerReport& report, double period) {
-  if (report.is_normalized) {
-    return fmt::format(", period {} / ω_n", significant(period, headline_digits + 1));
-  }
-  return fmt::format(" at {} Hz", significant(1.0 / period, headline_digits));
+DriveUnits headline_units(const AnswerReport& report) {
+  return DriveUnits(report.drive, headline_digits);
 }
 
 /// ", 2 encoder steps: quantization", the word where the answer has that cause; empty for more
@@ -80,8 +73,8 @@ Swing swing_of(const IrregularMotion& motion) {
 }
 
 std::string swing_text(const AnswerReport& report, const Swing& swing) {
-  const AnswerUnits units = headline_units(report);
-  const std::string at = swing.period ? pace(report, *swing.period) : "";
+  const DriveUnits units = headline_units(report);
+  const std::string at = swing.period ? units.pace(*swing.period) : "";
   if (swing.is_of_motor_alone) {
     return "the motor within the gap, " + units.swing(swing.motor) + at +
            ", while the load stands" + error_text(report, swing.error, 0.0);
@@ -140,7 +133,7 @@ std::string steps_text(const AnswerReport& report, const std::string& end) {
 std::string minutes_text(const AnswerReport& report) {
   const std::optional<double> time = report.answer.value(Quantity::time_to_rest);
   constexpr double minute = 60.0;
-  if (report.is_normalized || !time || *time < minute) return "";
+  if (headline_units(report).is_normalized() || !time || *time < minute) return "";
   constexpr double hour = 60.0;  // min
   constexpr double day = 24.0 * hour;
   const double minutes = *time / minute;

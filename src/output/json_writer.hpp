@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "gearlash/drive.hpp"
-#include "output/output_file.hpp"
+#include "gearlash/output.hpp"
 #include "output/record.hpp"
 
 namespace gearlash {

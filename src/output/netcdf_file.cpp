@@ -11,7 +11,7 @@
 #include <system_error>
 
 #include "base/lists.hpp"
-#include "output/output_file.hpp"
+#include "gearlash/output.hpp"
 
 namespace gearlash {
 namespace {

@@ -1,5 +1,3 @@
-#include "output/output_file.hpp"
-
 #include <dirent.h>
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -13,7 +11,8 @@
 #include <memory>
 #include <system_error>
 
-#include "input/units.hpp"
+#include "gearlash/output.hpp"
+#include "gearlash/units.hpp"
 #include "output/file_safety.hpp"
 
 namespace gearlash {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "output/columns.hpp"
+#include "gearlash/output.hpp"
 #include "question/change/target.hpp"
 
 namespace gearlash {
@@ -87,9 +87,10 @@ DrawnUnit drawn_unit(Quantity quantity, const AngleUnit& angle, bool is_normaliz
 
 std::string result_text(const Answer& answer, const Drive& drive) {
   constexpr int few_digits = 3;
+  const DriveUnits units(drive, few_digits);
   std::string text = name_of(answer.verdict);
   if (answer.verdict == Verdict::cannot_hunt && answer.growth_at_rest) {
-    text += " (growth " + significant(*answer.growth_at_rest, few_digits) + ")";
+    text += " (growth " + units.number(*answer.growth_at_rest) + ")";
   }
   const std::optional<double> load = answer.value(Quantity::amplitude);
   const std::optional<double> motor = answer.value(Quantity::motor_amplitude);
@@ -97,16 +98,14 @@ std::string result_text(const Answer& answer, const Drive& drive) {
   const bool is_of_motor = load && motor && *load < hardly * *motor;
   const std::optional<double> amplitude = is_of_motor ? motor : load;
   const std::optional<double> error = answer.value(Quantity::error);
-  const std::string off =
-      error && std::isfinite(*error) && *error > 1.05 * load.value_or(0.0)
-          ? ", up to " + angle_text(*error, drive.angle_unit, few_digits) + " off"
-          : "";
+  const std::string off = error && std::isfinite(*error) && *error > 1.05 * load.value_or(0.0)
+                              ? ", up to " + units.angle(*error) + " off"
+                              : "";
   if (!amplitude || *amplitude == 0.0) return text + off;
-  text +=
-      (is_of_motor ? ": motor ±" : ": ±") + angle_text(*amplitude, drive.angle_unit, few_digits);
+  text += (is_of_motor ? ": motor " : ": ") + units.swing(*amplitude);
   const auto frequency = answer.value(Quantity::frequency);
-  if (frequency && !is_normalized(drive)) {
-    text += " at " + significant(*frequency, few_digits) + " Hz";
+  if (frequency && !units.is_normalized()) {
+    text += " at " + units.number(*frequency) + " Hz";
   }
   return text + off;
 }
@@ -121,9 +120,14 @@ std::string hidden_error_text(const Target& target, const std::vector<const Answ
   if (error == 0.0) return "";
   return further_paragraph(
       "The target limits the amplitude of hunting alone: where it is met the load may end " +
-      angle_text(error, drive.angle_unit, usual_digits) +
+      DriveUnits(drive).angle(error) +
       " off. \"error <= …\" limits where it ends, static error and hunting "
       "together.");
+}
+
+std::string step_text(const StepResponse& step, const Drive& drive) {
+  const DriveUnits units(drive);
+  return "a step of " + units.angle(step.step) + ", settled within " + units.swing(step.band);
 }
 
 }  // namespace gearlash

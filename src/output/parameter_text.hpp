@@ -8,7 +8,7 @@
 
 #include "gearlash/answer.hpp"
 #include "gearlash/design.hpp"
-#include "output/report_units.hpp"
+#include "gearlash/units.hpp"
 #include "question/axis.hpp"
 
 namespace gearlash {
@@ -99,5 +99,8 @@ std::string result_text(const Answer& answer, const Drive& drive);
 /// A paragraph where one of the answers meets the target and hides_error(); empty otherwise.
 std::string hidden_error_text(const Target& target, const std::vector<const Answer*>& answers,
                               const Drive& drive);
+
+/// What a table of step responses is of: "a step of 1 deg, settled within ±0.05 deg".
+std::string step_text(const StepResponse& step, const Drive& drive);
 
 }  // namespace gearlash

@@ -1,10 +1,12 @@
-#include "output/report_units.hpp"
-
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
+
+#include "gearlash/units.hpp"
+#include "model/reduced_drive.hpp"
 
 namespace gearlash {
 
@@ -44,27 +46,33 @@ std::string angle_text(double radians, const AngleUnit& unit, int digits) {
   return significant(unit.from_radians(radians), digits) + " " + unit.name;
 }
 
-std::string time_text(double seconds, bool is_normalized, int digits) {
-  return significant(seconds, digits) + (is_normalized ? " / ω_n" : " s");
+DriveUnits::DriveUnits(const Drive& drive, int digits)
+    : angle_(drive.angle_unit), is_normalized_(gearlash::is_normalized(drive)), digits_(digits) {}
+
+std::string DriveUnits::angles(const Bounds& range) const {
+  const double low = angle_.from_radians(range.low);
+  const double high = angle_.from_radians(range.high);
+  constexpr double unseen = 1e-9;  // relative to the larger; closer ends print as one number
+  if (high - low <= unseen * std::max(std::abs(low), std::abs(high))) return angle(range.low);
+  return fmt::format("{} … {} {}", number(low), number(high), angle_.name);
 }
 
-std::string frequency_text(double period, bool is_normalized, int digits) {
-  if (!is_normalized) return significant(1.0 / period, digits) + " Hz";
-  return "ω = " + significant(2.0 * std::numbers::pi / period, digits) + " ω_n";
+std::string DriveUnits::at_least(double radians) const {
+  return number(rounded_down(angle_.from_radians(radians), digits_)) + " " + angle_.name;
 }
 
-std::string swing_text(double amplitude, const AngleUnit& unit, int digits) {
-  return "±" + angle_text(amplitude, unit, digits);
+std::string DriveUnits::swing_at_most(double amplitude) const {
+  return "±" + number(rounded_up(angle_.from_radians(amplitude), digits_)) + " " + angle_.name;
 }
 
-std::string swing_bound_text(double amplitude, const AngleUnit& unit, int digits) {
-  return fmt::format(
-      "±{} {}", significant(rounded_up(unit.from_radians(amplitude), digits), digits), unit.name);
+std::string DriveUnits::frequency(double period) const {
+  return is_normalized_ ? number(2.0 * std::numbers::pi / period) + " ω_n"
+                        : number(1.0 / period) + " Hz";
 }
 
-std::string step_text(const StepResponse& step, const AngleUnit& unit) {
-  return "a step of " + angle_text(step.step, unit, usual_digits) + ", settled within " +
-         swing_text(step.band, unit, usual_digits);
+std::string DriveUnits::pace(double period) const {
+  if (!is_normalized_) return " at " + frequency(period);
+  return ", period " + significant(period, std::max(digits_, usual_digits)) + " / ω_n";
 }
 
 }  // namespace gearlash

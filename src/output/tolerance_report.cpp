@@ -8,8 +8,9 @@
 #include "base/lists.hpp"
 #include "base/overloaded.hpp"
 #include "base/special_numbers.hpp"
+#include "gearlash/output.hpp"
 #include "model/reduced_drive.hpp"
-#include "output/columns.hpp"
+#include "output/parameter_text.hpp"
 
 namespace gearlash {
 namespace {
@@ -17,8 +18,7 @@ namespace {
 /// Two standard errors: about 95 % of such intervals contain the true value.
 constexpr double bar = 2.0;
 
-/// Whether text has frequencies: a normal form without a natural frequency has none.
-bool has_frequency(const ToleranceReport& report) { return !is_normalized(report.drive.nominal); }
+DriveUnits units_of(const ToleranceReport& report) { return DriveUnits(report.drive.nominal); }
 
 /// "amplitude", "amplitude of the motor".
 std::string amplitude_name(const ToleranceReport& report) {
@@ -40,12 +40,8 @@ std::string percent_text(const Estimate& estimate, std::size_t samples) {
                      significant(100.0 * bar * *estimate.standard_error, 2));
 }
 
-std::string angle_text(double angle, const ToleranceReport& report) {
-  return gearlash::angle_text(angle, report.drive.nominal.angle_unit, usual_digits);
-}
-
 std::string amplitude_text(const std::optional<Estimate>& estimate, const ToleranceReport& report) {
-  return estimate ? "±" + angle_text(estimate->value, report) : "none";
+  return estimate ? units_of(report).swing(estimate->value) : "none";
 }
 
 std::string frequency_text(const std::optional<Estimate>& estimate) {
@@ -72,16 +68,17 @@ TextRows headline_rows(const ToleranceReport& report) {
 }
 
 TextRows quantile_rows(const ToleranceReport& report) {
+  const DriveUnits units = units_of(report);
   const ToleranceStudy& study = report.study;
   TextRows rows = {{"share of samples up to", "error in the end", amplitude_name(report),
                     "amplitude, of those that hunt"}};
-  if (has_frequency(report)) rows.front().emplace_back("frequency");
+  if (!units.is_normalized()) rows.front().emplace_back("frequency");
   for (std::size_t i = 0; i < study.amplitude.size(); ++i) {
     TextRow row = {significant(100.0 * study.amplitude[i].share, usual_digits) + " %",
-                   angle_text(study.error[i].value->value, report),
+                   units.angle(study.error[i].value->value),
                    amplitude_text(study.amplitude[i].value, report),
                    amplitude_text(study.amplitude_of_hunting[i].value, report)};
-    if (has_frequency(report)) row.push_back(frequency_text(study.frequency[i].value));
+    if (!units.is_normalized()) row.push_back(frequency_text(study.frequency[i].value));
     rows.push_back(std::move(row));
   }
   return rows;
@@ -165,14 +162,15 @@ TextRows number_rows(const ToleranceReport& report) {
 std::string worst_text(const ToleranceReport& report) {
   if (report.worst.numbers.empty()) return "";
   const detail::SampleResult& worst = report.worst.result;
+  const DriveUnits units = units_of(report);
   std::string text = "The worst sample found within the tolerances ";
   if (worst.verdict == Verdict::cannot_hunt && !std::isnan(worst.growth_at_rest)) {
     text += "cannot hunt (growth at rest " + significant(worst.growth_at_rest, usual_digits) + ")";
   } else {
     text += name_of(worst.verdict);
     if (worst.amplitude > 0.0 && std::isfinite(worst.amplitude)) {
-      text += ": " + swing_text(worst.amplitude, report.drive.nominal.angle_unit, usual_digits);
-      if (has_frequency(report)) {
+      text += ": " + units.swing(worst.amplitude);
+      if (!units.is_normalized()) {
         text += " at " + significant(worst.frequency, usual_digits) + " Hz";
       }
     }
@@ -199,16 +197,13 @@ std::string proved_text(const ToleranceReport& report) {
     return further_paragraph("Not proved: a bound of all samples within the tolerances (" +
                              proved.reason + ").");
   }
-  std::string text =
-      "Proved: no sample within the tolerances swings by more than " +
-      swing_bound_text(*proved.bound, report.drive.nominal.angle_unit, usual_digits) +
-      " in the end" +
-      (has_limit(report.drive.nominal) ? ", if its torque stays off the limit" : "");
+  std::string text = "Proved: no sample within the tolerances swings by more than " +
+                     units_of(report).swing_at_most(*proved.bound) + " in the end" +
+                     (has_limit(report.drive.nominal) ? ", if its torque stays off the limit" : "");
   text += fmt::format(" (the ceiling, over {} {}", proved.parts,
                       proved.parts == 1 ? "box" : "boxes of parameters");
   if (proved.largest) {
-    text += "; of single drives it reaches " +
-            swing_bound_text(*proved.largest, report.drive.nominal.angle_unit, usual_digits);
+    text += "; of single drives it reaches " + units_of(report).swing_at_most(*proved.largest);
   }
   return further_paragraph(text + ").");
 }
@@ -221,7 +216,7 @@ std::string backlash_text(const ToleranceReport& report) {
   }
   const WidestBacklash& widest = *report.backlash;
   const auto angle = [&](double value) {
-    return std::isinf(value) ? std::string("any") : angle_text(value, report);
+    return std::isinf(value) ? std::string("any") : units_of(report).angle(value);
   };
   return further_paragraph(fmt::format(
       "A yield of {} needs a backlash from {} to at most {} ({} to {} within the error of the "

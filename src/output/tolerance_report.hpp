@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "gearlash/output.hpp"
 #include "gearlash/tolerance.hpp"
-#include "output/report_units.hpp"
+#include "gearlash/units.hpp"
 #include "question/series/worst_corner.hpp"
 
 namespace gearlash {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/lists.hpp"
-#include "output/columns.hpp"
+#include "gearlash/output.hpp"
 #include "output/drive_text.hpp"
 #include "output/parameter_text.hpp"
 
@@ -57,7 +57,7 @@ std::string reached_text(const TuneReport& report, const TunedDrive& tuned) {
       return ", settling within " + significant(tuned.reached, tuned_digits) + " s";
     case Aim::static_error:
       return ", with a static error of at most " +
-             angle_text(tuned.reached, present_drive(report).angle_unit, tuned_digits);
+             DriveUnits(present_drive(report), tuned_digits).angle(tuned.reached);
   }
   return "";
 }

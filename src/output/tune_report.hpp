@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "gearlash/output.hpp"
 #include "gearlash/tune.hpp"
-#include "output/report_units.hpp"
+#include "gearlash/units.hpp"
 
 namespace gearlash {
 

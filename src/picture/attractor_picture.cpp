@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/lists.hpp"
+#include "gearlash/units.hpp"
 #include "model/reduced_drive.hpp"
 #include "model/signal.hpp"
-#include "output/report_units.hpp"
 #include "question/motion.hpp"
 
 namespace gearlash {

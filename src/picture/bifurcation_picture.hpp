@@ -3,7 +3,7 @@
 
 #include "gearlash/grid.hpp"
 #include "gearlash/plot.hpp"
-#include "input/units.hpp"
+#include "gearlash/units.hpp"
 #include "question/map/bifurcations.hpp"
 
 namespace gearlash {

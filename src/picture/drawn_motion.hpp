@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "gearlash/motion.hpp"
-#include "input/units.hpp"
+#include "gearlash/units.hpp"
 
 namespace gearlash {
 

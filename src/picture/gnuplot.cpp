@@ -20,9 +20,8 @@
 
 #include "base/lists.hpp"
 #include "gearlash/fault.hpp"
-#include "input/units.hpp"
-#include "output/columns.hpp"
-#include "output/output_file.hpp"
+#include "gearlash/units.hpp"
+#include "gearlash/output.hpp"
 
 namespace gearlash {
 namespace {

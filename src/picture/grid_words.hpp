@@ -4,7 +4,7 @@
 #include <string>
 
 #include "gearlash/plot.hpp"
-#include "input/units.hpp"
+#include "gearlash/units.hpp"
 #include "question/axis.hpp"
 
 namespace gearlash {

@@ -11,7 +11,7 @@
 #include "gearlash/drive.hpp"
 #include "gearlash/motion.hpp"
 #include "gearlash/plot.hpp"
-#include "input/units.hpp"
+#include "gearlash/units.hpp"
 
 namespace gearlash {
 

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "gearlash/fault.hpp"
-#include "input/drive_file.hpp"
+#include "gearlash/input.hpp"
+#include "gearlash/units.hpp"
 #include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
-#include "output/report_units.hpp"
 
 namespace gearlash {
 

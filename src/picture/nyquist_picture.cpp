@@ -118,7 +118,7 @@ struct KeyPoint {
 std::string motion_text(double size, double period, const NyquistPicture& picture) {
   const std::string swing = "±" + angle_text(size, picture.angle, label_digits);
   if (picture.is_normalized) return swing + ", ω = " + significant(turn / period, label_digits);
-  return swing + ", " + frequency_text(period, false, label_digits);
+  return swing + ", " + significant(1.0 / period, label_digits) + " Hz";
 }
 
 /// The text after a comma that distinguishes analyses of one loop; empty for a single one.
@@ -408,7 +408,7 @@ Plot nyquist_plot(const DescribeReport& report, std::string_view part) {
                            .analyses = loop_analyses(report.analyses, drawn.part),
                            .exact = drive::exact_motions(report.answer),
                            .angle = report.drive.angle_unit,
-                           .is_normalized = report.is_normalized});
+                           .is_normalized = is_normalized(report.drive)});
     }
   }
   if (!part.empty()) refuse("part", part, "must be a part that the drive has inside its loop");

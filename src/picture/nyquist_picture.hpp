@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gearlash/plot.hpp"
-#include "input/units.hpp"
+#include "gearlash/units.hpp"
 #include "output/describe_report.hpp"
 #include "question/loop/describing/describing.hpp"
 

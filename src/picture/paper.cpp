@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "base/lists.hpp"
-#include "output/columns.hpp"
+#include "gearlash/output.hpp"
 #include "picture/plot_making.hpp"
 
 namespace gearlash {

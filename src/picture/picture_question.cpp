@@ -1,12 +1,12 @@
 // The picture that answers a question: what it shows is found, then drawn.
 #include <fmt/format.h>
 
-#include "base/fault.hpp"
+#include "gearlash/fault.hpp"
 #include "base/range_check.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/comparison.hpp"
 #include "gearlash/picture.hpp"
-#include "input/target_text.hpp"
+#include "gearlash/input.hpp"
 #include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/describe_report.hpp"

@@ -11,7 +11,7 @@
 #include "base/extent.hpp"
 #include "base/lists.hpp"
 #include "base/special_numbers.hpp"
-#include "output/report_units.hpp"
+#include "gearlash/units.hpp"
 
 namespace gearlash {
 namespace {

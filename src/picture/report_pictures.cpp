@@ -108,7 +108,7 @@ Plot ceiling_plot(const AnswerReport& report) {
   sort_by(bars, [](const Bar& bar) { return -bar.value; });
   return plot_of(
       "What the ceiling of the load is made of",
-      "no motion exceeds " + swing_bound_text(*ceiling.load, report.drive.angle_unit, 4) +
+      "no motion exceeds " + DriveUnits(report.drive).swing_at_most(*ceiling.load) +
           " in the end (proved)",
       bar_panel(bars, {.name = "term of the ceiling", .unit = report.drive.angle_unit.name}));
 }

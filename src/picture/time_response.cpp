@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gearlash/units.hpp"
 #include "model/reduced_drive.hpp"
 #include "model/signal.hpp"
-#include "output/report_units.hpp"
 #include "picture/motion_style.hpp"
 #include "picture/plot_making.hpp"
 #include "picture/shown_end.hpp"

@@ -45,9 +45,6 @@ Analysis analyse_in_full(const SoundDrive& drive, const Wanted& wanted = {},
 /// for ceilings. `answer`: the drive's own.
 std::optional<AnswerBounds> proved_bounds(const Drive& drive, const Answer& answer);
 
-/// Whether the verdict is known. One of hunting is not if the search found no amplitude.
-bool is_decided(const Answer& answer);
-
 /// Whether every motion ends at rest: cannot_hunt or comes_to_rest.
 bool is_at_rest(Verdict verdict);
 

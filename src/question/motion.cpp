@@ -10,6 +10,7 @@
 #include "base/range_check.hpp"
 #include "closed_form/trajectory.hpp"
 #include "general/assemble/time_scale.hpp"
+#include "general/attractors/search_setting.hpp"
 #include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 #include "model/signal.hpp"
@@ -294,6 +295,22 @@ double period_of_loop(const Drive& drive) {
   const std::optional<ProportionalServo> servo = proportional_servo(at_rest);
   return servo ? 2.0 * std::numbers::pi / servo->natural_frequency
                : drive::time_scales(reduce(drive)).swing;
+}
+
+double usual_step(const Drive& drive) {
+  const drive::ReducedDrive reduced = reduce(drive);
+  const double step = std::max({5.0 * reduced.backlash, 20.0 * reduced.sensing.resolution,
+                                3.0 * drive::held_length(reduced)});
+  return step > 0.0 && std::isfinite(step) ? step : 1.0;
+}
+
+double usual_time(const Drive& drive) {
+  constexpr double periods = 10.0;
+  const auto time_of = [](const std::optional<Signal>& signal) {
+    return signal ? drive::settling_time(*signal) : 0.0;
+  };
+  return 2.0 * std::max(time_of(drive.reference), time_of(drive.load_torque)) +
+         periods * period_of_loop(drive);
 }
 
 Motion motion_of(drive::DriveSystem system, hybrid::Trajectory trajectory, double until) {

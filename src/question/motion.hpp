@@ -31,10 +31,6 @@ class Motion::Source {
 /// A motion keeps its steps, each with all numbers of the drive. So many take half a gigabyte.
 inline constexpr std::size_t most_steps_of_a_motion = 4'000'000;
 
-/// s, the period of the undamped loop in closed form, else the slowest swing of the linear loop.
-/// Precondition: a sound drive.
-double period_of_loop(const Drive& drive);
-
 /// A motion computed by the general engine. It may begin at any time; the result's times are
 /// relative to that. Forms of `system` whose size differs from its state's are taken as 0.
 Motion motion_of(drive::DriveSystem system, hybrid::Trajectory trajectory,

@@ -8,6 +8,10 @@ know each other. No room includes thesis. Nothing before input prints, reads fil
 clocks, so that the numerics compile for any machine (WebAssembly too) and give the same answer
 wherever they are called from. Public headers, in include/gearlash, include no room at all.
 
+The faces (apps, python, web) are clients: they include public headers alone, but for the verbs of the
+thesis and for what inner_headers_of_faces.txt lists. Nothing is added to that list, and what no face
+includes any more is removed from it.
+
 Usage: include_rule.py ROOT       prints every fault as file:line: reason; exit status 1 if any
 """
 
@@ -55,6 +59,9 @@ PRINTS_OR_READS = {
 LOOKS_AT_CLOCKS = {"chrono", "ctime", "time.h", "sys/time.h"}
 # The standard library of Emscripten's clang 14 lacks these.
 NOT_IN_WEB_ASSEMBLY = {"format", "ranges", "source_location", "stop_token"}
+
+FACES = ("apps", "python", "web")
+LIST_OF_FACES = pathlib.Path("tests/architecture/inner_headers_of_faces.txt")
 
 FORBIDDEN_NAMES = {"utils", "util", "common", "helpers", "helper", "misc"}
 
@@ -132,9 +139,35 @@ def cpp_files(folder):
     return [file for file in sorted(folder.rglob("*")) if file.suffix in CPP_SUFFIXES]
 
 
+def inner_headers(face):
+    """(file, line, header) for each header of a room that the face includes outside the thesis."""
+    for file in cpp_files(face):
+        if file.name.startswith("thesis") and face.name == "apps":
+            continue
+        for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), start=1):
+            match = INCLUDE.match(line)
+            if match and match.group(2).split("/")[0] in PERMITTED_ROOMS:
+                yield file, number, match.group(2)
+
+
+def faults_of_faces(root):
+    """What a face includes beyond public headers and the list, and what the list has in vain."""
+    listed = root / LIST_OF_FACES
+    permitted = set(listed.read_text(encoding="utf-8").split("\n")) - {""} if listed.exists() else set()
+    used = set()
+    for face in FACES:
+        for file, line, header in inner_headers(root / face):
+            used.add(f"{face} {header}")
+            if f"{face} {header}" not in permitted:
+                yield (f"{file.relative_to(root)}:{line}: {face} includes {header}: "
+                       "a face includes public headers, gearlash/, alone")
+    for entry in sorted(permitted - used):
+        yield f"{LIST_OF_FACES}: no longer needed: {entry}"
+
+
 def faults(root):
     """Every fault below `root`, as "file:line: reason"."""
-    found = list(forbidden_names(root))
+    found = [*forbidden_names(root), *faults_of_faces(root)]
     folders = [(None, root / "include" / "gearlash")]
     for folder in sorted(path for path in (root / "src").glob("*") if path.is_dir()):
         if folder.name in PERMITTED_ROOMS:

@@ -52,6 +52,18 @@ class IncludeRule(unittest.TestCase):
         self.assert_refused("src/question/map/map.hpp", '#include "input/reader.hpp"\n')
         self.assert_refused("src/base/root.cpp", '  #  include <closed_form/flow.hpp>\n')
 
+    def test_a_face_includes_public_headers_and_what_is_listed(self):
+        self.assert_refused("apps/tool/verb.cpp",
+                            '#include "gearlash/drive.hpp"\n#include "question/axis.hpp"\n', line=2)
+        self.assert_refused("web/core/core.cpp", '#include "question/axis.hpp"\n')
+        listed = "tests/architecture/inner_headers_of_faces.txt"
+        self.assert_sound({"apps/tool/verb.cpp": '#include "question/axis.hpp"\n#include "verb.hpp"\n',
+                           "apps/tool/thesis_verb.cpp": '#include "thesis/printout.hpp"\n',
+                           listed: "apps question/axis.hpp\n"})
+        status, output = check({listed: "apps question/axis.hpp\n"})
+        self.assertEqual(status, 1)
+        self.assertIn("no longer needed: apps question/axis.hpp", output)
+
     def test_hybrid_knows_nothing_of_gears(self):
         self.assert_refused("src/hybrid/mode.cpp", '#include "model/shaft.hpp"\n')
 

@@ -1,5 +1,5 @@
 // The words of InvalidInput are bounded, its faults are not.
-#include "base/fault.hpp"
+#include "gearlash/fault.hpp"
 
 #include <gtest/gtest.h>
 

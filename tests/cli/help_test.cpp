@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "gearlash/output.hpp"
 #include "gearlash/version.hpp"
-#include "output/columns.hpp"
 #include "tool.hpp"
 
 namespace gearlash::help_test {

@@ -1,12 +1,11 @@
 // Axes as they are typed on the command line.
-#include "input/axis_text.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "base/fault.hpp"
+#include "gearlash/fault.hpp"
+#include "gearlash/input.hpp"
 
 namespace gearlash::axis_text_test {
 namespace {

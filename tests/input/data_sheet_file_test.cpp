@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "closed_form/limit_cycle.hpp"
-#include "input/drive_file.hpp"
+#include "gearlash/input.hpp"
 #include "input/servo_of_file.hpp"
 #include "input/text_of_drive.hpp"
 

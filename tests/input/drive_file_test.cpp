@@ -1,6 +1,4 @@
 // Drives from TOML: what is read, and every way it can be refused.
-#include "input/drive_file.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +8,7 @@
 #include <string>
 #include <tuple>
 
+#include "gearlash/input.hpp"
 #include "input/servo_of_file.hpp"
 #include "input/text_of_drive.hpp"
 #include "model/proportional_servo.hpp"

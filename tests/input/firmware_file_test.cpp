@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "gearlash/analyse.hpp"
+#include "gearlash/input.hpp"
 #include "gearlash/parameter.hpp"
-#include "input/drive_file.hpp"
 #include "input/text_of_drive.hpp"
 #include "model/firmware.hpp"
 #include "model/reduced_drive.hpp"

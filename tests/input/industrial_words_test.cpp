@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "gearlash/input.hpp"
 #include "gearlash/parameter.hpp"
-#include "input/axis_text.hpp"
 #include "input/foreign_words.hpp"
 #include "input/text_of_drive.hpp"
 #include "model/parameters.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "input/drive_file.hpp"
+#include "gearlash/input.hpp"
 #include "input/text_of_drive.hpp"
 #include "model/reduced_drive.hpp"
 

@@ -6,10 +6,7 @@
 
 #include "gearlash/input.hpp"
 #include "gearlash/parameter.hpp"
-#include "input/axis_text.hpp"
-#include "input/drive_file.hpp"
 #include "input/parameter_text.hpp"
-#include "input/sweep_file.hpp"
 #include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 

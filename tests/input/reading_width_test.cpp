@@ -12,8 +12,8 @@
 
 #include "base/number.hpp"
 #include "base/seeded_draws.hpp"
+#include "gearlash/units.hpp"
 #include "input/unit_expression.hpp"
-#include "input/units.hpp"
 
 namespace gearlash::reading_width_test {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "input/drive_file.hpp"
-#include "input/text_file.hpp"
+#include "gearlash/input.hpp"
+#include "gearlash/units.hpp"
 #include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 

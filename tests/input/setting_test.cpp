@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "gearlash/input.hpp"
 #include "gearlash/parameter.hpp"
-#include "input/drive_file.hpp"
 #include "question/faults_of.hpp"
 
 namespace gearlash::setting_test {

@@ -1,9 +1,8 @@
 // Sweep files: what is varied, what is not, and every fault with its place.
-#include "input/sweep_file.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "gearlash/input.hpp"
 #include "question/faults_of.hpp"
 
 namespace gearlash::sweep_file_test {

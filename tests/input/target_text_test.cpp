@@ -1,6 +1,4 @@
 // Targets as they are typed, and what is said of those that cannot be read.
-#include "input/target_text.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "input/drive_file.hpp"
+#include "gearlash/input.hpp"
 #include "question/faults_of.hpp"
 
 namespace gearlash::test {

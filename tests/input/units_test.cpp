@@ -1,5 +1,5 @@
 // Quantities with units: every spelling against a factor written out independently of UDUNITS-2.
-#include "input/units.hpp"
+#include "gearlash/units.hpp"
 
 #include <gtest/gtest.h>
 

@@ -46,7 +46,7 @@ TEST(Headline, GivesAmplitudeAndFrequency) {
   EXPECT_EQ(headline(report_of(Verdict::hunts, swing)),
             "hunts: ±0.02 rad at 2 Hz (found from 1 start)");
   AnswerReport normalized = report_of(Verdict::hunts, swing);
-  normalized.is_normalized = true;
+  normalized.drive.servo.emplace();
   EXPECT_EQ(headline(normalized), "hunts: ±0.02 rad, period 0.5 / ω_n (found from 1 start)");
 }
 

@@ -1,11 +1,11 @@
 // Text for a terminal: paragraphs wrapped again, rows folded, tables divided, commands still typed.
-#include "output/columns.hpp"
-
 #include <gmock/gmock.h>
 
 #include <iterator>
 #include <random>
 #include <sstream>
+
+#include "gearlash/output.hpp"
 
 namespace gearlash::columns_test {
 namespace {

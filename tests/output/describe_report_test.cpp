@@ -75,9 +75,9 @@ TEST(DescribeReport, LeavesOutAPredictionTooSmallToBeSeen) {
 
 TEST(EdgeDescribeReport, NormalisedTimesAreTold) {
   DescribeReport report = report_of(type_one_servo());
-  report.is_normalized = true;
+  report.drive.servo.emplace();
   EXPECT_THAT(describe_text(report), HasSubstr("3.948 / ω_n"));
-  EXPECT_THAT(describe_text(report), HasSubstr("ω = 1.591 ω_n"));
+  EXPECT_THAT(describe_text(report), HasSubstr("1.591 ω_n"));
   EXPECT_THAT(describe_text(report), Not(HasSubstr(" Hz")));
 }
 

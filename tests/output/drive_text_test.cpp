@@ -9,9 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "gearlash/input.hpp"
 #include "gearlash/parameter.hpp"
-#include "input/drive_file.hpp"
-#include "input/text_file.hpp"
 #include "model/parameters.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/json_writer.hpp"

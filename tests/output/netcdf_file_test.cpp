@@ -13,8 +13,8 @@
 #include <cstring>
 
 #include "cli/tool.hpp"
+#include "gearlash/output.hpp"
 #include "output/grid_netcdf.hpp"
-#include "output/output_file.hpp"
 
 namespace gearlash::netcdf_file_test {
 namespace {

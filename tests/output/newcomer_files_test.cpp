@@ -6,9 +6,8 @@
 #include <set>
 #include <string>
 
-#include "base/fault.hpp"
-#include "input/drive_file.hpp"
-#include "input/text_file.hpp"
+#include "gearlash/fault.hpp"
+#include "gearlash/input.hpp"
 #include "output/drive_text.hpp"
 #include "question/faults_of.hpp"
 

@@ -1,6 +1,4 @@
 // Files that appear whole or not at all.
-#include "output/output_file.hpp"
-
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,6 +13,8 @@
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "gearlash/output.hpp"
 
 namespace gearlash::output_file_test {
 namespace {

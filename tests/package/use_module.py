@@ -46,7 +46,7 @@ def use_recommended(drive_file: str) -> None:
 def without_provenance(report: object) -> object:
     if isinstance(report, dict):
         return {key: without_provenance(value) for key, value in report.items()
-                if key not in ("provenance", "version", "command", "angle")}
+                if key not in ("provenance", "version", "command")}
     return [without_provenance(one) for one in report] if isinstance(report, list) else report
 
 

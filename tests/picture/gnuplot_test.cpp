@@ -12,7 +12,7 @@
 #include <sstream>
 #include <string>
 
-#include "output/output_file.hpp"
+#include "gearlash/output.hpp"
 
 namespace gearlash::gnuplot_test {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "controllers.hpp"
-#include "output/report_units.hpp"
+#include "gearlash/units.hpp"
 #include "picture/gnuplot.hpp"
 
 namespace gearlash::nyquist_picture_test {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "gearlash/units.hpp"
 #include "model/reduced_drive.hpp"
-#include "output/report_units.hpp"
 #include "picture/attractor_picture.hpp"
 #include "picture/curve_panel.hpp"
 #include "picture/drawn_motion.hpp"

@@ -14,7 +14,6 @@
 #include "gearlash/analyse.hpp"
 #include "gearlash/input.hpp"
 #include "gearlash/tolerance.hpp"
-#include "input/drive_file.hpp"
 #include "output/answer_report.hpp"
 
 namespace gearlash::newcomers_test {

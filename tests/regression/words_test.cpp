@@ -9,7 +9,6 @@
 #include "gearlash/analyse.hpp"
 #include "gearlash/input.hpp"
 #include "gearlash/output.hpp"
-#include "input/drive_file.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/describe_report.hpp"
 #include "question/loop/describing/describing.hpp"

@@ -12,7 +12,7 @@
 #include "drive_reply.hpp"
 #include "gearlash/design.hpp"
 #include "gearlash/picture.hpp"
-#include "input/axis_text.hpp"
+#include "gearlash/input.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/answer_report.hpp"
 #include "output/drive_text.hpp"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "gearlash/input.hpp"
 #include "gearlash/parameter.hpp"
-#include "input/drive_file.hpp"
 #include "model/parameters.hpp"
 #include "replies.hpp"
 

@@ -6,12 +6,9 @@
 #include <string>
 #include <string_view>
 
+#include "gearlash/input.hpp"
 #include "general/assemble/drive_system.hpp"
-#include "input/axis_text.hpp"
-#include "input/drive_file.hpp"
 #include "input/signal_reader.hpp"
-#include "input/sweep_file.hpp"
-#include "input/target_text.hpp"
 #include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 #include "model/signal.hpp"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "base/fault.hpp"
+#include "gearlash/fault.hpp"
 #include "model/normalized_servo.hpp"
 #include "question/loop/describing/harmonic_balance.hpp"
 

@@ -1,27 +1,21 @@
-// gearlash motor: from the data sheet to the numbers of the charts of 1960, step by step.
+#include "thesis/procedure.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <stdexcept>
 
 #include "base/lists.hpp"
 #include "base/special_numbers.hpp"
 #include "gearlash/analyse.hpp"
+#include "gearlash/output.hpp"
 #include "gearlash/parameter.hpp"
-#include "input/units.hpp"
+#include "gearlash/units.hpp"
 #include "model/parameters.hpp"
 #include "model/reduced_drive.hpp"
-#include "output/answer_report.hpp"
-#include "output/columns.hpp"
-#include "verb.hpp"
 
-namespace gearlash::cli {
+namespace gearlash::thesis {
 namespace {
-
-constexpr char motor_examples[] =
-    "  gearlash motor examples/elinco-fd162.toml\n"
-    "  gearlash motor examples/instrument-two-phase.toml\n";
 
 constexpr double chart_backlash = 0.3;  ///< rad, of the charts of the thesis
 
@@ -230,58 +224,24 @@ void add_limit_cycle(Steps& steps, const Drive& drive) {
                         number(drive.gearbox.backlash), number(amplitude)));
 }
 
-/// The data sheet in SI, the steps of the procedure for its kind of motor as the thesis numbers
-/// them, each with formula, numbers and result, and the limit cycle. Every step can be recomputed
-/// from the numbers on its line, to five digits at least. `written` are the values as their author
-/// wrote them, by "section.key"; those that are missing are printed in SI alone.
-/// Precondition: a motor with a winding, proportional control, a closed form.
-std::string motor_procedure(const Drive& drive, const std::map<std::string, std::string>& written) {
-  const Known known(drive);
-  Steps steps;
-  const std::string kind = std::visit(
-      [&](const auto& motor) { return add_steps_of(motor, known, steps); }, drive.motor.kind);
-  add_limit_cycle(steps, drive);
-  const AnswerReport report{.drive = drive, .answer = analyse(drive, {.proofs = false})};
-  return fmt::format(
-      "Procedure for the {} (Appendix A of the thesis)\n\nData sheet\n{}\nSteps\n{}\n{}\n", kind,
-      given_table(drive, written), steps.text(), headline(report));
-}
+}  // namespace
 
-// --- the verb ---
-
-/// The procedure covers a proportional loop and a motor with a winding.
 bool is_data_sheet(const Drive& drive) {
   const auto* pid = std::get_if<PID>(&drive.controller.law);
   return !drive.servo && !std::holds_alternative<TorqueControl>(drive.motor.kind) &&
          !drive.controller.firmware && pid != nullptr && pid->terms == PIDTerms::P;
 }
 
-ExitStatus run(const ServoOptions& options, const Provenance&) {
-  Faults faults;
-  const std::optional<WrittenDrive> written = resolve_drive(options, {}, faults);
-  faults.require_none();
-  if (!is_data_sheet(written->drive)) {
-    throw InvalidInput({{"motor", "", "the procedure starts from a data sheet with [motor]",
-                         shown(options.file, std::string_view::npos)}});
-  }
-  servo_of_1960(*written, options);
-  // With --set the texts of the file no longer apply.
-  std::map<std::string, std::string> texts;
-  if (options.settings.empty()) texts = written->texts;
-  write_file("-", fitted_to_output(motor_procedure(written->drive, texts)));
-  return ExitStatus::done;
+std::string motor_procedure(const Drive& drive, const std::map<std::string, std::string>& written) {
+  const Known known(drive);
+  Steps steps;
+  const std::string kind = std::visit(
+      [&](const auto& motor) { return add_steps_of(motor, known, steps); }, drive.motor.kind);
+  add_limit_cycle(steps, drive);
+  return fmt::format(
+      "Procedure for the {} (Appendix A of the thesis)\n\nData sheet\n{}\nSteps\n{}\n{}\n", kind,
+      given_table(drive, written), steps.text(),
+      headline(drive, analyse(drive, {.proofs = false})));
 }
 
-}  // namespace
-
-void add_motor_command(const Command& app, Action& action) {
-  const auto [command, options] = add_verb<ServoOptions>(
-      app, action, "motor",
-      "Convert a data sheet to the numbers of the charts of 1960, step by step",
-      help_footer(motor_examples), run);
-  command.add_option("DRIVE.toml", options.file,
-                     "Read this data sheet (docs/reference/data-sheets.md)", {.is_required = true});
-  add_set_option(command, options);
-}
-
-}  // namespace gearlash::cli
+}  // namespace gearlash::thesis

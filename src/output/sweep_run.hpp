@@ -4,9 +4,10 @@
 #include <array>
 #include <filesystem>
 
-#include "input/sweep_file.hpp"
-#include "output/report_units.hpp"
-#include "question/family/evaluation.hpp"
+#include "gearlash/input.hpp"
+#include "gearlash/output.hpp"
+#include "gearlash/units.hpp"
+#include "question/map/grid_pieces.hpp"
 
 namespace gearlash {
 
@@ -22,7 +23,7 @@ enum class SweepStart : bool {
 /// OUTPUT.part.json. OUTPUT.part is renamed when it is complete. If the program is stopped or
 /// killed, or the disk is full, the two files remain, and SweepStart::resume continues after the
 /// last block. The finished file has the same bytes as one of an uninterrupted run. Memory: two
-/// blocks, about 160 MB. `progress` as in evaluate_in_pieces().
+/// blocks, about 160 MB. `progress` and `seconds` as in evaluate_in_pieces().
 ///
 /// Returns the count of all points done, those of earlier runs included: fewer than the grid has if
 /// `progress` stopped the work. The command of `provenance` is written into the file. Throws
@@ -30,6 +31,6 @@ enum class SweepStart : bool {
 /// or version. Throws OutputError if a file cannot be written or the disk has too little room.
 RowCount run_sweep(const SweepFile& sweep, const Provenance& provenance,
                    const std::filesystem::path& output, SweepStart start,
-                   Progress& progress = no_progress());
+                   Progress& progress = no_progress(), const Stopwatch& seconds = {});
 
 }  // namespace gearlash

@@ -1,4 +1,4 @@
-#include "sweep_run.hpp"
+#include "output/sweep_run.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -14,13 +14,11 @@
 
 #include "base/checksum.hpp"
 #include "base/lists.hpp"
-#include "input/text_file.hpp"
-#include "input/units.hpp"
+#include "gearlash/input.hpp"
+#include "gearlash/output.hpp"
+#include "gearlash/units.hpp"
 #include "output/file_safety.hpp"
 #include "output/grid_netcdf.hpp"
-#include "output/output_file.hpp"
-#include "question/map/grid_pieces.hpp"
-#include "work.hpp"
 
 namespace gearlash {
 namespace {
@@ -284,7 +282,8 @@ GridNetcdf reopened(const SweepPart& part, const GridContents& contents,
 }  // namespace
 
 RowCount run_sweep(const SweepFile& sweep, const Provenance& provenance,
-                   const std::filesystem::path& output, SweepStart start, Progress& progress) {
+                   const std::filesystem::path& output, SweepStart start, Progress& progress,
+                   const Stopwatch& seconds) {
   SweepPart part(output);
   if (part.is_begun() && start == SweepStart::anew) {
     part.refuse_output("must have no unfinished sweep beside it: continue " + part.shown_files() +
@@ -309,7 +308,7 @@ RowCount run_sweep(const SweepFile& sweep, const Provenance& provenance,
         part.write_record(contents, next);
         recorded = next;
       },
-      progress, cli::steady_seconds);
+      progress, seconds);
   if (count.stopped) return recorded.count;
   part.finish();
   return recorded.count;
