@@ -4,7 +4,7 @@
 #include <string>
 
 #include "gearlash/plot.hpp"
-#include "gearlash/units.hpp"
+#include "output/parameter_text.hpp"
 #include "question/axis.hpp"
 
 namespace gearlash {
