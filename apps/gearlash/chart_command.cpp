@@ -1,8 +1,8 @@
 // gearlash chart: a family of curves over any parameters of the drive.
 #include <fmt/format.h>
 
-#include "gearlash/fault.hpp"
 #include "base/lists.hpp"
+#include "gearlash/fault.hpp"
 #include "grid_options.hpp"
 #include "picture/bifurcation_picture.hpp"
 #include "picture/grid_chart.hpp"

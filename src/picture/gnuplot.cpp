@@ -20,8 +20,8 @@
 
 #include "base/lists.hpp"
 #include "gearlash/fault.hpp"
-#include "gearlash/units.hpp"
 #include "gearlash/output.hpp"
+#include "gearlash/units.hpp"
 
 namespace gearlash {
 namespace {

@@ -1,12 +1,12 @@
 // The picture that answers a question: what it shows is found, then drawn.
 #include <fmt/format.h>
 
-#include "gearlash/fault.hpp"
 #include "base/range_check.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/comparison.hpp"
-#include "gearlash/picture.hpp"
+#include "gearlash/fault.hpp"
 #include "gearlash/input.hpp"
+#include "gearlash/picture.hpp"
 #include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/describe_report.hpp"
