@@ -89,8 +89,8 @@ constexpr double title_line = 24.0;
 constexpr double subtitle_line = 22.0;
 constexpr double between_panels = 12.0;
 constexpr double panel_title = 26.0;
-constexpr double axis_room = 66.0;
-constexpr double legend_line = 20.0;
+constexpr double axis_room = 72.0;
+constexpr double legend_line = 24.0;
 constexpr double letter = 8.6;
 
 /// A panel with its place on the page.
