@@ -99,7 +99,7 @@ clang:  ## build everything with clang 16, warnings being errors, and run every 
 # The build is a project around Gearlash, tests/around. Left out: tests that read sources, build other
 # programs or run scripts, where the sanitizers watch nothing; those that count allocations, which the
 # sanitizers count themselves; those of the documents' output and of the page, which repeat those of
-# the command line; the oracles, which compare numbers; and twelve tests that do for minutes what others
+# the command line; the oracles, which compare numbers; and fourteen tests that do for minutes what others
 # do for seconds.
 # SANITIZED, names of folders of tests, builds and runs the tests of these alone, and watches only
 # rooms of these names.
