@@ -71,7 +71,7 @@ void add_margins(Result& result, const Drive& drive, const std::vector<Axis>& ax
 }
 
 Result analysed(const WrittenDrive& written, const Provenance& provenance, LimitedWork& work) {
-  Wanted wanted = wanted_of_report;
+  Wanted wanted = wanted_of_report();
   wanted.motion_bytes = bytes_of_motion(work.limits());
   Result result{.analysis = analyse_in_full(written.drive, wanted,
                                             TerminalProgress(work, "Searching").as_argument())};

@@ -32,8 +32,9 @@ struct Wanted {
 };
 
 /// All that the report of an answer tells, the same from every face.
-inline constexpr Wanted wanted_of_report{
-    .ceiling = true, .loop = true, .step = true, .causes = true};
+[[nodiscard]] constexpr Wanted wanted_of_report() {
+  return {.ceiling = true, .loop = true, .step = true, .causes = true};
+}
 
 /// Uses the closed form if the drive is the servo of 1960 by its physics. Otherwise it simulates
 /// from several starts and closes cycles by shooting. Only the final value, ramp or sine of a

@@ -161,7 +161,7 @@ class Core::Session {
 
   /// Coarse: without proofs and borders; a search follows that of the drive before, or one start.
   Analysis analysed(bool is_coarse, const WrittenDrive& written, Progress& progress) {
-    if (!is_coarse) return analyse_in_full(written.drive, wanted_of_report, progress);
+    if (!is_coarse) return analyse_in_full(written.drive, wanted_of_report(), progress);
     return analyse_in_full(
         written.drive, {.proofs = false, .ceiling = true, .borders = false}, progress,
         {.near = last_ ? &*last_ : nullptr, .is_enough = [](const drive::AttractorSearch& search) {
